@@ -3,12 +3,15 @@
 from .config import TrackerConfig
 from .errors import AlignmentError, ConfigError, DualFootError, SeriesError
 from .series import ImuPair, ImuSeries, PoseSeries
+from .tracker import DualFootTracker
 from .trajectory import Event, EventKind, FootTrajectory, Trajectory
+from .update import Update
 
 __all__ = [
     "AlignmentError",
     "ConfigError",
     "DualFootError",
+    "DualFootTracker",
     "Event",
     "EventKind",
     "FootTrajectory",
@@ -17,5 +20,6 @@ __all__ = [
     "PoseSeries",
     "SeriesError",
     "Trajectory",
+    "Update",
     "TrackerConfig",
 ]

@@ -1,0 +1,23 @@
+"""Fill the cache of the compiled kernel: ``python -m dualfoot_ros.core.kernel``."""
+
+import os
+import sys
+
+from .engine import cache_directory, compiled
+
+
+def main() -> int:
+    """Compile the kernel at low priority and say where it is kept."""
+    if hasattr(os, "nice"):
+        os.nice(5)
+    try:
+        compiled()
+    except ImportError:
+        sys.stdout.write("numba is not installed: the kernel runs interpreted\n")
+        return 0
+    sys.stdout.write(f"kernel compiled, cached in {cache_directory()}\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

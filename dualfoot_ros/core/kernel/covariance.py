@@ -1,0 +1,122 @@
+"""Time propagation of the 30x30 covariance, eqs (5)-(11) of Liu et al. 2023.
+
+Phi = I + F dt is block-diagonal over the feet and sparse within a foot, so it is applied row by
+row and never built.  ``Phi (P + Q dt/2) Phi' + Q dt/2`` is eq. (8).  Eq. (6) of the paper writes
+diag(tau) for the biases; a first-order Markov process needs -1/tau, which is what stands here.
+"""
+
+from .layout import (
+    BLOCK,
+    C_BIAS_RATE,
+    C_Q_ATT,
+    C_Q_BA,
+    C_Q_BG,
+    C_Q_VEL,
+    PLL,
+    PLR,
+    PRR,
+    ROW,
+    S_A,
+    S_B,
+    S_CDT,
+    S_SF,
+)
+
+
+def add_noise(w, block, dt):
+    """Add half of the process noise of one epoch to the diagonal of a foot's block."""
+    h = 0.5 * dt
+    for i in range(3):
+        w[block + (ROW + 1) * (3 + i)] += w[C_Q_VEL] * h
+        w[block + (ROW + 1) * (6 + i)] += w[C_Q_ATT] * h
+        w[block + (ROW + 1) * (9 + i)] += w[C_Q_BG] * h
+        w[block + (ROW + 1) * (12 + i)] += w[C_Q_BA] * h
+
+
+def apply_transition(w, source, target, dt):
+    """Write Phi times the 15x16 block at ``source`` to ``target``, Phi of eqs (6)-(8).
+
+    Phi is given by S_CDT (R_nb dt) and S_SF (f_n dt) of the foot just mechanized.
+    """
+    fx = w[S_SF]
+    fy = w[S_SF + 1]
+    fz = w[S_SF + 2]
+    c00 = w[S_CDT]
+    c01 = w[S_CDT + 1]
+    c02 = w[S_CDT + 2]
+    c10 = w[S_CDT + 3]
+    c11 = w[S_CDT + 4]
+    c12 = w[S_CDT + 5]
+    c20 = w[S_CDT + 6]
+    c21 = w[S_CDT + 7]
+    c22 = w[S_CDT + 8]
+    m = 1.0 - dt * w[C_BIAS_RATE]
+    for j in range(ROW):
+        p = source + j
+        q = target + j
+        v0 = w[p + 48]
+        v1 = w[p + 64]
+        v2 = w[p + 80]
+        a0 = w[p + 96]
+        a1 = w[p + 112]
+        a2 = w[p + 128]
+        g0 = w[p + 144]
+        g1 = w[p + 160]
+        g2 = w[p + 176]
+        b0 = w[p + 192]
+        b1 = w[p + 208]
+        b2 = w[p + 224]
+        w[q] = w[p] + dt * v0
+        w[q + 16] = w[p + 16] + dt * v1
+        w[q + 32] = w[p + 32] + dt * v2
+        w[q + 48] = v0 + (fy * a2 - fz * a1) + (c00 * b0 + c01 * b1 + c02 * b2)
+        w[q + 64] = v1 + (fz * a0 - fx * a2) + (c10 * b0 + c11 * b1 + c12 * b2)
+        w[q + 80] = v2 + (fx * a1 - fy * a0) + (c20 * b0 + c21 * b1 + c22 * b2)
+        w[q + 96] = a0 - (c00 * g0 + c01 * g1 + c02 * g2)
+        w[q + 112] = a1 - (c10 * g0 + c11 * g1 + c12 * g2)
+        w[q + 128] = a2 - (c20 * g0 + c21 * g1 + c22 * g2)
+        w[q + 144] = m * g0
+        w[q + 160] = m * g1
+        w[q + 176] = m * g2
+        w[q + 192] = m * b0
+        w[q + 208] = m * b1
+        w[q + 224] = m * b2
+
+
+def transpose(w, source, target):
+    """Write the transpose of the 15x15 block at ``source`` to ``target``."""
+    for i in range(15):
+        for j in range(15):
+            w[target + ROW * i + j] = w[source + ROW * j + i]
+
+
+def mirror(w, source, target):
+    """Copy the upper triangle of ``source`` to both triangles of ``target``."""
+    for i in range(15):
+        for j in range(i, 15):
+            value = w[source + ROW * i + j]
+            w[target + ROW * i + j] = value
+            w[target + ROW * j + i] = value
+
+
+def propagate_foot(w, foot, dt):
+    """Propagate a foot's own block and its side of the cross block, right after `mechanize`.
+
+    The cross block is Phi_L P_LR Phi_R': the left foot's turn takes it from the left, the right
+    foot's from the right.
+    """
+    block = PLL if foot == 0 else PRR
+    add_noise(w, block, dt)
+    apply_transition(w, block, S_A, dt)
+    transpose(w, S_A, S_B)
+    apply_transition(w, S_B, S_A, dt)
+    mirror(w, S_A, block)
+    add_noise(w, block, dt)
+    if foot == 0:
+        apply_transition(w, PLR, S_A, dt)
+        for i in range(BLOCK):
+            w[PLR + i] = w[S_A + i]
+    else:
+        transpose(w, PLR, S_A)
+        apply_transition(w, S_A, S_B, dt)
+        transpose(w, S_B, PLR)

@@ -1,0 +1,205 @@
+"""One epoch of the tracker, the loop over many, and the re-run after a roll-back.
+
+Live and batch both go through ``advance``: live with one sample, batch with all of them.  It
+stops after every epoch that set a notice, because what a notice asks for (a constraint, a re-run)
+is decided by the tracker and not here.
+"""
+
+import math
+
+from .covariance import propagate_foot
+from .detector import detect
+from .layout import (
+    FOOT,
+    N_EPOCH,
+    N_FLAGS,
+    N_NOTICE,
+    N_OLDEST,
+    N_RING,
+    NOTICE_SHIFT,
+    O_COV_ATT,
+    O_COV_POS,
+    O_COV_VEL,
+    O_FOOT,
+    O_POS,
+    O_QUAT,
+    O_RATE,
+    O_RELATIVE,
+    O_STANCE,
+    O_VEL,
+    O_ZUPT,
+    PLL,
+    PLR,
+    POS,
+    PRR,
+    RATE,
+    RINGS,
+    ROT,
+    ROW,
+    SAMPLE,
+    STATE,
+    VEL,
+    Z_LEFT,
+    ZUPT_INFO,
+)
+from .strapdown import mechanize
+from .update import zupt
+
+
+def filter_epoch(w, n, epoch):
+    """Run the filter over a stored epoch: eqs (1)-(3), (7)-(11) and, in stance, (12)."""
+    i = epoch % n[N_RING]
+    sample = RINGS + SAMPLE * i
+    dt = w[sample]
+    flags = n[N_FLAGS + i]
+    for foot in range(2):
+        mechanize(w, foot, dt, sample + 1 + 6 * foot)
+        propagate_foot(w, foot, dt)
+    for foot in range(2):
+        if (flags >> foot) & 1:
+            zupt(w, foot)
+        else:
+            for k in range(ZUPT_INFO):
+                w[Z_LEFT + foot * ZUPT_INFO + k] = 0.0
+
+
+def save(w, n, epoch):
+    """Keep a snapshot of the state before ``epoch``."""
+    ring = n[N_RING]
+    o = RINGS + SAMPLE * ring + STATE * (epoch % ring)
+    for k in range(STATE):
+        w[o + k] = w[k]
+
+
+def restore(w, n, epoch):
+    """Go back to the state before ``epoch``; it must not be older than n[N_OLDEST]."""
+    ring = n[N_RING]
+    o = RINGS + SAMPLE * ring + STATE * (epoch % ring)
+    for k in range(STATE):
+        w[k] = w[o + k]
+
+
+def rerun(w, n, first, last):
+    """Run the filter again over the stored epochs first..last, renewing the snapshots."""
+    for epoch in range(first, last + 1):
+        save(w, n, epoch)
+        filter_epoch(w, n, epoch)
+
+
+def set_flags(n, foot, first, last, value):
+    """Set or clear the zero-velocity flag of ``foot`` over the stored epochs first..last."""
+    for epoch in range(first, last + 1):
+        i = N_FLAGS + epoch % n[N_RING]
+        if value:
+            n[i] = n[i] | (1 << foot)
+        else:
+            n[i] = n[i] & ~(1 << foot)
+
+
+def advance(w, n, dts, samples, start, stop, out):
+    """Run epochs ``start..stop-1`` of ``samples`` (N, 12) with intervals ``dts`` (N,) s.
+
+    Each writes its row of ``out`` (N, OUT).  Returns the index after the last epoch that was run:
+    ``stop``, or earlier when an epoch set n[N_NOTICE].
+    """
+    ring = n[N_RING]
+    for k in range(start, stop):
+        epoch = n[N_EPOCH] + 1
+        n[N_EPOCH] = epoch
+        if epoch - n[N_OLDEST] >= ring:
+            n[N_OLDEST] = epoch - ring + 1
+        i = epoch % ring
+        o = RINGS + SAMPLE * i
+        w[o] = dts[k]
+        for j in range(12):
+            w[o + 1 + j] = samples[k, j]
+        save(w, n, epoch)
+        left, left_notice = detect(w, n, 0)
+        right, right_notice = detect(w, n, 1)
+        flags = 0
+        if left:
+            flags = 1
+        if right:
+            flags += 2
+        n[N_FLAGS + i] = flags
+        n[N_NOTICE] = left_notice | (right_notice << NOTICE_SHIFT)
+        filter_epoch(w, n, epoch)
+        emit(w, n, out, k)
+        if n[N_NOTICE] != 0:
+            return k + 1
+    return stop
+
+
+def emit(w, n, out, k):
+    """Write the state to row ``k`` of ``out`` (N, OUT), laid out as in ``layout``."""
+    flags = n[N_FLAGS + n[N_EPOCH] % n[N_RING]]
+    for foot in range(2):
+        s = foot * FOOT
+        o = foot * O_FOOT
+        for i in range(3):
+            out[k, o + O_POS + i] = w[s + POS + i]
+            out[k, o + O_VEL + i] = w[s + VEL + i]
+            out[k, o + O_RATE + i] = w[s + RATE + i]
+        out[k, o + O_STANCE] = (flags >> foot) & 1
+        quaternion(w, s + ROT, out, k, o + O_QUAT)
+        block = PLL if foot == 0 else PRR
+        m = 0
+        for i in range(3):
+            for j in range(i, 3):
+                out[k, o + O_COV_POS + m] = w[block + ROW * i + j]
+                out[k, o + O_COV_VEL + m] = w[block + ROW * (3 + i) + 3 + j]
+                out[k, o + O_COV_ATT + m] = w[block + ROW * (6 + i) + 6 + j]
+                m += 1
+        for i in range(ZUPT_INFO):
+            out[k, o + O_ZUPT + i] = w[Z_LEFT + foot * ZUPT_INFO + i]
+    m = 0
+    for i in range(3):
+        for j in range(i, 3):
+            out[k, O_RELATIVE + m] = (
+                w[PLL + ROW * i + j]
+                + w[PRR + ROW * i + j]
+                - w[PLR + ROW * i + j]
+                - w[PLR + ROW * j + i]
+            )
+            m += 1
+
+
+def quaternion(w, r, out, k, o):
+    """Write the Hamilton quaternion (x, y, z, w >= 0) of the rotation at ``r``."""
+    m00 = w[r]
+    m11 = w[r + 4]
+    m22 = w[r + 8]
+    trace = m00 + m11 + m22
+    if trace > 0.0:
+        s = 2.0 * math.sqrt(1.0 + trace)
+        x = (w[r + 7] - w[r + 5]) / s
+        y = (w[r + 2] - w[r + 6]) / s
+        z = (w[r + 3] - w[r + 1]) / s
+        q = 0.25 * s
+    elif m00 > m11 and m00 > m22:
+        s = 2.0 * math.sqrt(1.0 + m00 - m11 - m22)
+        x = 0.25 * s
+        y = (w[r + 1] + w[r + 3]) / s
+        z = (w[r + 2] + w[r + 6]) / s
+        q = (w[r + 7] - w[r + 5]) / s
+    elif m11 > m22:
+        s = 2.0 * math.sqrt(1.0 + m11 - m00 - m22)
+        x = (w[r + 1] + w[r + 3]) / s
+        y = 0.25 * s
+        z = (w[r + 5] + w[r + 7]) / s
+        q = (w[r + 2] - w[r + 6]) / s
+    else:
+        s = 2.0 * math.sqrt(1.0 + m22 - m00 - m11)
+        x = (w[r + 2] + w[r + 6]) / s
+        y = (w[r + 5] + w[r + 7]) / s
+        z = 0.25 * s
+        q = (w[r + 3] - w[r + 1]) / s
+    if q < 0.0:
+        x = -x
+        y = -y
+        z = -z
+        q = -q
+    out[k, o] = x
+    out[k, o + 1] = y
+    out[k, o + 2] = z
+    out[k, o + 3] = q

@@ -1,0 +1,114 @@
+"""Where each number stands in the flat workspaces of the kernel.
+
+One float64 array ``w`` and one int64 array ``n`` hold everything a tracker is: the state of the
+filter (which a snapshot copies), its constants, scratch space, the history of samples and the
+ring of snapshots.  All offsets are compile-time constants but for the two rings at the end.
+"""
+
+# --- state: what a snapshot copies -------------------------------------------------------------
+FOOT = 32  # stride from the left foot's nominal state to the right foot's
+POS = 0  # position, m
+VEL = 3  # velocity, m/s
+ROT = 6  # R_nb, body to navigation, row-major 3x3
+BG = 15  # gyro bias, rad/s
+BA = 18  # accelerometer bias, m/s^2
+ALPHA = 21  # previous rotation increment, rad
+GAMMA = 24  # previous velocity increment, m/s
+RATE = 27  # last bias-corrected angular rate, rad/s
+
+ROW = 16  # covariance blocks are 15 rows of 15, padded to 16
+BLOCK = 15 * ROW
+PLL = 2 * FOOT  # covariance of the left foot's error state
+PRR = PLL + BLOCK  # covariance of the right foot's error state
+PLR = PRR + BLOCK  # cross-covariance, rows left, columns right
+STATE = PLR + BLOCK  # size of a snapshot
+
+# error state of one foot, eq. (4): position, velocity, attitude, gyro bias, accelerometer bias
+E_POS, E_VEL, E_ATT, E_BG, E_BA = 0, 3, 6, 9, 12
+
+# --- constants, set when the tracker is aligned --------------------------------------------------
+C_GRAVITY = STATE
+C_Q_VEL = C_GRAVITY + 1  # noise powers per second
+C_Q_ATT = C_GRAVITY + 2
+C_Q_BG = C_GRAVITY + 3
+C_Q_BA = C_GRAVITY + 4
+C_BIAS_RATE = C_GRAVITY + 5  # 1 / correlation time, 1/s
+C_ZUPT_VAR = C_GRAVITY + 6  # (m/s)^2
+C_ZUPT_RATE_VAR = C_GRAVITY + 7  # (m/s per rad/s)^2
+C_GLRT_FORCE = C_GRAVITY + 8  # 1 / sigma_a^2
+C_GLRT_RATE = C_GRAVITY + 9  # 1 / sigma_w^2
+C_GLRT_THRESHOLD = C_GRAVITY + 10
+C_FOOT = C_GRAVITY + 16  # then per foot:
+C_STRIDE = 8
+C_LEVER = 0  # sensor to pivot of the foot, body frame, m
+C_STILL_RATE = 3  # standstill angular rate, rad/s
+C_STILL_NORM = 6  # standstill specific force norm, m/s^2
+
+# --- scratch -------------------------------------------------------------------------------------
+S_A = C_FOOT + 2 * C_STRIDE  # a 15x16 block
+S_B = S_A + BLOCK  # another
+S_G = S_B + BLOCK  # P H', three columns of 32 (left 0..14, right 16..30)
+S_S = S_G + 96  # innovation covariance, 3x3
+S_Y = S_S + 9  # innovation
+S_H = S_Y + 3  # measurement matrix, three rows of 32
+S_DX = S_H + 96  # estimated error state, 32
+S_CDT = S_DX + 32  # R_nb dt, 3x3
+S_SF = S_CDT + 9  # velocity increment in navigation axes, 3
+S_ROTATION = S_SF + 3  # a 3x3 rotation increment
+S_TMP = S_ROTATION + 9  # a 3x3
+
+# --- what the last epoch was, for the output row ------------------------------------------------
+ZUPT_INFO = 13  # innovation 3, S row-major 9, NIS
+Z_LEFT = S_TMP + 9
+Z_RIGHT = Z_LEFT + ZUPT_INFO
+GLRT_LEFT = Z_RIGHT + ZUPT_INFO
+GLRT_RIGHT = GLRT_LEFT + 1
+
+# --- rings (length n[N_RING]) --------------------------------------------------------------------
+RINGS = GLRT_RIGHT + 1  # history first, snapshots after it
+SAMPLE = 14  # dt, 12 values, one pad
+
+# --- int64 workspace -------------------------------------------------------------------------------
+N_RING = 0  # length of the rings, epochs
+N_EPOCH = 1  # newest epoch, -1 before the first
+N_WINDOW = 2  # GLRT window, samples
+N_MIN_STANCE = 3  # samples
+N_MIN_SWING = 4  # samples
+N_NOTICE = 5  # bits below, set by an epoch that needs the tracker's attention
+N_OLDEST = 6  # oldest epoch whose snapshot is valid
+N_FOOT = 8  # then per foot:
+N_STRIDE = 8
+N_PHASE = 0  # one of the phases below
+N_START = 1  # first epoch of the (candidate) stance
+N_LEAVE = 2  # first epoch after it
+N_FLAGS = N_FOOT + 2 * N_STRIDE  # ring of zero-velocity flags, bit 0 left, bit 1 right
+
+SWING, LANDING, STANCE, LEAVING = 0, 1, 2, 3
+
+# notices; the right foot's are shifted by NOTICE_SHIFT
+STANCE_FALSE, STANCE_CONFIRMED, SWING_FALSE, STANCE_ENDED = 1, 2, 4, 8
+NOTICE_SHIFT = 4
+
+# --- output row --------------------------------------------------------------------------------------
+O_FOOT = 45  # stride from left to right
+O_POS = 0
+O_VEL = 3
+O_QUAT = 6
+O_STANCE = 10
+O_RATE = 11
+O_COV_POS = 14  # upper triangle, 6
+O_COV_VEL = 20
+O_COV_ATT = 26
+O_ZUPT = 32  # innovation 3, S 9, NIS
+O_RELATIVE = 2 * O_FOOT  # upper triangle of the covariance of left minus right position
+OUT = O_RELATIVE + 6
+
+
+def workspace_size(ring: int) -> int:
+    """Return the number of float64 of a workspace with rings of ``ring`` epochs."""
+    return RINGS + ring * (SAMPLE + STATE)
+
+
+def integer_size(ring: int) -> int:
+    """Return the number of int64 of a workspace with rings of ``ring`` epochs."""
+    return N_FLAGS + ring

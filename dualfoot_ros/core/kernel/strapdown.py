@@ -1,0 +1,132 @@
+"""Strapdown mechanization of one foot, eqs (1)-(3) of Liu et al. 2023, in a frame with z up.
+
+The paper writes north-east-down with g = (0, 0, +g); here z points up, so g = (0, 0, -g) and the
+equations are otherwise unchanged (they are the same in any level frame).
+"""
+
+import math
+
+from .layout import (
+    ALPHA,
+    BA,
+    BG,
+    C_GRAVITY,
+    FOOT,
+    GAMMA,
+    POS,
+    RATE,
+    ROT,
+    S_CDT,
+    S_ROTATION,
+    S_SF,
+    S_TMP,
+    VEL,
+)
+
+
+def rotation_increment(w, x, y, z):
+    """Write exp([r x]) of the rotation vector (x, y, z) rad to S_ROTATION, as in eq. (1)."""
+    q = x * x + y * y + z * z
+    if q < 0.49:  # series: the same bits on every platform
+        a = 1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (
+            1.0 - q / 110.0 * (1.0 - q / 156.0 * (1.0 - q / 210.0))))))
+        b = 0.5 * (1.0 - q / 12.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0 * (
+            1.0 - q / 132.0 * (1.0 - q / 182.0 * (1.0 - q / 240.0)))))))
+    else:
+        r = math.sqrt(q)
+        a = math.sin(r) / r
+        b = (1.0 - math.cos(r)) / q
+    w[S_ROTATION + 0] = 1.0 - b * (y * y + z * z)
+    w[S_ROTATION + 1] = b * x * y - a * z
+    w[S_ROTATION + 2] = b * x * z + a * y
+    w[S_ROTATION + 3] = b * x * y + a * z
+    w[S_ROTATION + 4] = 1.0 - b * (x * x + z * z)
+    w[S_ROTATION + 5] = b * y * z - a * x
+    w[S_ROTATION + 6] = b * x * z - a * y
+    w[S_ROTATION + 7] = b * y * z + a * x
+    w[S_ROTATION + 8] = 1.0 - b * (x * x + y * y)
+
+
+def rotate_body(w, foot):
+    """Right-multiply R_nb of ``foot`` by S_ROTATION (a rotation of the body)."""
+    r = foot * FOOT + ROT
+    for i in range(3):
+        for j in range(3):
+            w[S_TMP + 3 * i + j] = (
+                w[r + 3 * i] * w[S_ROTATION + j]
+                + w[r + 3 * i + 1] * w[S_ROTATION + 3 + j]
+                + w[r + 3 * i + 2] * w[S_ROTATION + 6 + j]
+            )
+    for i in range(9):
+        w[r + i] = w[S_TMP + i]
+
+
+def rotate_navigation(w, foot):
+    """Left-multiply R_nb of ``foot`` by S_ROTATION (a rotation of the navigation frame)."""
+    r = foot * FOOT + ROT
+    for i in range(3):
+        for j in range(3):
+            w[S_TMP + 3 * i + j] = (
+                w[S_ROTATION + 3 * i] * w[r + j]
+                + w[S_ROTATION + 3 * i + 1] * w[r + 3 + j]
+                + w[S_ROTATION + 3 * i + 2] * w[r + 6 + j]
+            )
+    for i in range(9):
+        w[r + i] = w[S_TMP + i]
+
+
+def mechanize(w, foot, dt, sample):
+    """Advance position, velocity and attitude of ``foot`` by one sample, eqs (1)-(3).
+
+    ``sample`` is the index in ``w`` of specific force (m/s^2) and angular rate (rad/s), 3 + 3.
+    Leaves R_nb dt in S_CDT and the velocity increment in navigation axes in S_SF, both of the
+    attitude before the step, for the covariance.
+    """
+    o = foot * FOOT
+    gx = (w[sample] - w[o + BA]) * dt
+    gy = (w[sample + 1] - w[o + BA + 1]) * dt
+    gz = (w[sample + 2] - w[o + BA + 2]) * dt
+    wx = w[sample + 3] - w[o + BG]
+    wy = w[sample + 4] - w[o + BG + 1]
+    wz = w[sample + 5] - w[o + BG + 2]
+    ax = wx * dt
+    ay = wy * dt
+    az = wz * dt
+    px = w[o + ALPHA]
+    py = w[o + ALPHA + 1]
+    pz = w[o + ALPHA + 2]
+    qx = w[o + GAMMA]
+    qy = w[o + GAMMA + 1]
+    qz = w[o + GAMMA + 2]
+    t = 1.0 / 12.0
+    sx = gx + 0.5 * (ay * gz - az * gy) + t * (py * gz - pz * gy + qy * az - qz * ay)
+    sy = gy + 0.5 * (az * gx - ax * gz) + t * (pz * gx - px * gz + qz * ax - qx * az)
+    sz = gz + 0.5 * (ax * gy - ay * gx) + t * (px * gy - py * gx + qx * ay - qy * ax)
+    for i in range(9):
+        w[S_CDT + i] = w[o + ROT + i] * dt
+    for i in range(3):
+        r = o + ROT + 3 * i
+        w[S_SF + i] = w[r] * sx + w[r + 1] * sy + w[r + 2] * sz
+    for i in range(3):
+        before = w[o + VEL + i]
+        after = before + w[S_SF + i]
+        if i == 2:
+            after = after - w[C_GRAVITY] * dt
+        w[o + VEL + i] = after
+        w[o + POS + i] = w[o + POS + i] + 0.5 * (before + after) * dt
+    rotation_increment(
+        w,
+        ax + t * (py * az - pz * ay),
+        ay + t * (pz * ax - px * az),
+        az + t * (px * ay - py * ax),
+    )
+    rotate_body(w, foot)
+    w[o + ALPHA] = ax
+    w[o + ALPHA + 1] = ay
+    w[o + ALPHA + 2] = az
+    w[o + GAMMA] = gx
+    w[o + GAMMA + 1] = gy
+    w[o + GAMMA + 2] = gz
+    w[o + RATE] = wx
+    w[o + RATE + 1] = wy
+    w[o + RATE + 2] = wz

@@ -1,0 +1,67 @@
+"""Turning and moving a foot's track: heading is a gauge, so this is exact at any time."""
+
+from .layout import (
+    FOOT,
+    PLL,
+    PLR,
+    POS,
+    PRR,
+    ROT,
+    ROW,
+    VEL,
+)
+
+
+def turn_vector(w, at, stride, c, s):
+    """Turn the vector with elements at ``at``, ``at + stride`` about z by (cos, sin) = (c, s)."""
+    x = w[at]
+    y = w[at + stride]
+    w[at] = c * x - s * y
+    w[at + stride] = s * x + c * y
+
+
+def turn_rows(w, block, c, s):
+    """Turn the position, velocity and attitude rows of a 15x15 block."""
+    for j in range(15):
+        for e in range(0, 9, 3):
+            turn_vector(w, block + ROW * e + j, ROW, c, s)
+
+
+def turn_columns(w, block, c, s):
+    """Turn the position, velocity and attitude columns of a 15x15 block."""
+    for i in range(15):
+        for e in range(0, 9, 3):
+            turn_vector(w, block + ROW * i + e, 1, c, s)
+
+
+def symmetrise(w, block):
+    """Copy the upper triangle onto the lower one."""
+    for i in range(15):
+        for j in range(i + 1, 15):
+            w[block + ROW * j + i] = w[block + ROW * i + j]
+
+
+def turn(w, at, foot, c, s, pivot, shift):
+    """Turn the track of ``foot`` about the vertical through ``pivot`` (2,), then ``shift`` (3,).
+
+    ``at`` is the index of the state (0, or that of a snapshot).  Nominal states and covariance
+    are turned exactly.
+    """
+    o = at + foot * FOOT
+    w[o + POS] -= pivot[0]
+    w[o + POS + 1] -= pivot[1]
+    turn_vector(w, o + POS, 1, c, s)
+    w[o + POS] += pivot[0] + shift[0]
+    w[o + POS + 1] += pivot[1] + shift[1]
+    w[o + POS + 2] += shift[2]
+    turn_vector(w, o + VEL, 1, c, s)
+    for j in range(3):
+        turn_vector(w, o + ROT + j, 3, c, s)
+    block = at + (PLL if foot == 0 else PRR)
+    turn_rows(w, block, c, s)
+    turn_columns(w, block, c, s)
+    symmetrise(w, block)
+    if foot == 0:
+        turn_rows(w, at + PLR, c, s)
+    else:
+        turn_columns(w, at + PLR, c, s)

@@ -1,0 +1,230 @@
+"""Measurement updates of the error-state Kalman filter and the feedback to the nominal states.
+
+Every measurement of up to three rows goes one way: ``collect`` builds P H', S and leaves them in
+scratch, ``correct`` factors S = L D L', takes P - V V' in one exactly symmetric pass and feeds the
+estimated error back.  P is never inverted, so a covariance that an equality constraint has made
+singular is no trouble.  Errors are estimate minus truth (Liu et al. 2023, section III-C); the
+attitude error is that of C_hat = (I - [phi x]) C.
+"""
+
+import math
+
+from .layout import (
+    BA,
+    BG,
+    C_FOOT,
+    C_LEVER,
+    C_STRIDE,
+    C_ZUPT_RATE_VAR,
+    C_ZUPT_VAR,
+    FOOT,
+    PLL,
+    PLR,
+    POS,
+    PRR,
+    RATE,
+    ROT,
+    ROW,
+    S_DX,
+    S_G,
+    S_H,
+    S_S,
+    S_Y,
+    VEL,
+    Z_LEFT,
+    ZUPT_INFO,
+)
+from .strapdown import rotate_navigation, rotation_increment
+
+
+def collect(w, rows):
+    """Write P H' to S_G and H P H' to S_S for the ``rows`` rows at S_H (30 columns, dense)."""
+    for k in range(rows):
+        g = S_G + 32 * k
+        h = S_H + 32 * k
+        for j in range(32):
+            w[g + j] = 0.0
+        for i in range(15):
+            a = w[h + i]
+            b = w[h + 16 + i]
+            if a != 0.0:
+                for j in range(15):
+                    w[g + j] += a * w[PLL + ROW * i + j]
+                    w[g + 16 + j] += a * w[PLR + ROW * i + j]
+            if b != 0.0:
+                for j in range(15):
+                    w[g + j] += b * w[PLR + ROW * j + i]
+                    w[g + 16 + j] += b * w[PRR + ROW * i + j]
+    for k in range(rows):
+        for m in range(k, rows):
+            total = 0.0
+            for j in range(15):
+                total += w[S_H + 32 * k + j] * w[S_G + 32 * m + j]
+                total += w[S_H + 32 * k + 16 + j] * w[S_G + 32 * m + 16 + j]
+            w[S_S + 3 * k + m] = total
+            w[S_S + 3 * m + k] = total
+
+
+def correct(w, rows):
+    """Update with P H' (S_G), S (S_S, noise included) and the innovation (S_Y); return the NIS.
+
+    S_G and S_Y are overwritten.  A row whose variance is not positive is left out: nothing can be
+    learnt from it.
+    """
+    nis = 0.0
+    for k in range(rows):
+        g = S_G + 32 * k
+        d = w[S_S + 3 * k + k]
+        z = w[S_Y + k]
+        for m in range(k):
+            x = w[S_S + 3 * m + k]  # already divided by sqrt(d_m)
+            d -= x * x
+            z -= x * w[S_Y + m]
+            for j in range(32):
+                w[g + j] -= x * w[S_G + 32 * m + j]
+        if d > 0.0:
+            scale = 1.0 / math.sqrt(d)
+        else:
+            scale = 0.0
+        z = z * scale
+        w[S_Y + k] = z
+        nis += z * z
+        for j in range(32):
+            w[g + j] *= scale
+        for m in range(k + 1, rows):
+            x = w[S_S + 3 * k + m]
+            for i in range(k):
+                x -= w[S_S + 3 * i + k] * w[S_S + 3 * i + m]
+            w[S_S + 3 * k + m] = x * scale
+    for k in range(rows, 3):
+        w[S_Y + k] = 0.0
+        for j in range(32):
+            w[S_G + 32 * k + j] = 0.0
+    for j in range(32):
+        w[S_DX + j] = (
+            w[S_G + j] * w[S_Y] + w[S_G + 32 + j] * w[S_Y + 1] + w[S_G + 64 + j] * w[S_Y + 2]
+        )
+    downdate(w)
+    feed_back(w)
+    return nis
+
+
+def downdate(w):
+    """Subtract V V' from P, V the three columns at S_G; symmetric to the bit."""
+    for i in range(15):
+        a0 = w[S_G + i]
+        a1 = w[S_G + 32 + i]
+        a2 = w[S_G + 64 + i]
+        b0 = w[S_G + 16 + i]
+        b1 = w[S_G + 48 + i]
+        b2 = w[S_G + 80 + i]
+        for j in range(15):
+            l0 = w[S_G + j]
+            l1 = w[S_G + 32 + j]
+            l2 = w[S_G + 64 + j]
+            r0 = w[S_G + 16 + j]
+            r1 = w[S_G + 48 + j]
+            r2 = w[S_G + 80 + j]
+            w[PLL + ROW * i + j] -= a0 * l0 + a1 * l1 + a2 * l2
+            w[PRR + ROW * i + j] -= b0 * r0 + b1 * r1 + b2 * r2
+            w[PLR + ROW * i + j] -= a0 * r0 + a1 * r1 + a2 * r2
+
+
+def feed_back(w):
+    """Take the estimated error S_DX off the nominal states; the rotation is exact."""
+    for foot in range(2):
+        o = foot * FOOT
+        d = S_DX + 16 * foot
+        for i in range(3):
+            w[o + POS + i] -= w[d + i]
+            w[o + VEL + i] -= w[d + 3 + i]
+            w[o + BG + i] += w[d + 9 + i]
+            w[o + BA + i] += w[d + 12 + i]
+        rotation_increment(w, w[d + 6], w[d + 7], w[d + 8])
+        rotate_navigation(w, foot)
+
+
+def zupt(w, foot):
+    """Zero-velocity update of one foot, eq. (12), at the point about which the foot pivots.
+
+    The sensor at ``l`` from the pivot moves with v = -R_nb (omega x l) while the foot rolls over:
+    h(x) = v + R_nb (omega x l) is zero, with the rows [0, I, [R_nb u x], -R_nb [l x], 0],
+    u = omega x l.  A lever arm of zero is the paper's eq. (12).
+    """
+    o = foot * FOOT
+    lever = C_FOOT + foot * C_STRIDE + C_LEVER
+    lx = w[lever]
+    ly = w[lever + 1]
+    lz = w[lever + 2]
+    wx = w[o + RATE]
+    wy = w[o + RATE + 1]
+    wz = w[o + RATE + 2]
+    ux = wy * lz - wz * ly
+    uy = wz * lx - wx * lz
+    uz = wx * ly - wy * lx
+    for k in range(96):
+        w[S_H + k] = 0.0
+    for i in range(3):
+        r = o + ROT + 3 * i
+        w[S_Y + i] = w[r] * ux + w[r + 1] * uy + w[r + 2] * uz
+        h = S_H + 32 * i + 16 * foot
+        w[h + 3 + i] = 1.0
+        w[h + 9] = w[r + 2] * ly - w[r + 1] * lz  # -R [l x]
+        w[h + 10] = w[r] * lz - w[r + 2] * lx
+        w[h + 11] = w[r + 1] * lx - w[r] * ly
+    ax = w[S_Y]
+    ay = w[S_Y + 1]
+    az = w[S_Y + 2]
+    h = S_H + 16 * foot
+    w[h + 7] = -az
+    w[h + 8] = ay
+    w[h + 32 + 6] = az
+    w[h + 32 + 8] = -ax
+    w[h + 64 + 6] = -ay
+    w[h + 64 + 7] = ax
+    collect_zupt(w, foot)
+    noise = w[C_ZUPT_VAR] + w[C_ZUPT_RATE_VAR] * (wx * wx + wy * wy + wz * wz)
+    info = Z_LEFT + foot * ZUPT_INFO
+    for i in range(3):
+        w[S_S + 4 * i] += noise
+        w[S_Y + i] += w[o + VEL + i]
+        w[info + i] = w[S_Y + i]
+    for i in range(9):
+        w[info + 3 + i] = w[S_S + i]
+    w[info + 12] = correct(w, 3)
+
+
+def collect_zupt(w, foot):
+    """Do what `collect` does for the sparse rows of a zero-velocity update."""
+    own = PLL if foot == 0 else PRR
+    for k in range(3):
+        g = S_G + 32 * k + 16 * foot
+        x = S_G + 32 * k + 16 * (1 - foot)
+        h = S_H + 32 * k + 16 * foot
+        for j in range(16):
+            total = w[own + ROW * (3 + k) + j]
+            for i in range(6, 12):
+                total += w[h + i] * w[own + ROW * i + j]
+            w[g + j] = total
+        if foot == 0:
+            for j in range(16):
+                total = w[PLR + ROW * (3 + k) + j]
+                for i in range(6, 12):
+                    total += w[h + i] * w[PLR + ROW * i + j]
+                w[x + j] = total
+        else:
+            for j in range(15):
+                total = w[PLR + ROW * j + 3 + k]
+                for i in range(6, 12):
+                    total += w[h + i] * w[PLR + ROW * j + i]
+                w[x + j] = total
+            w[x + 15] = 0.0
+    for k in range(3):
+        for m in range(k, 3):
+            g = S_G + 32 * m + 16 * foot
+            h = S_H + 32 * k + 16 * foot
+            total = w[g + 3 + k]
+            for i in range(6, 12):
+                total += w[h + i] * w[g + i]
+            w[S_S + 3 * k + m] = total
+            w[S_S + 3 * m + k] = total

@@ -1,0 +1,113 @@
+"""The kernel's output rows, turned into a trajectory."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from .kernel import layout as at
+from .series import FloatArray, IntArray
+from .trajectory import FEET, Event, EventKind, FootTrajectory, Trajectory
+
+UPPER = np.array([0, 1, 2, 1, 3, 4, 2, 4, 5])
+
+
+def full_symmetric(upper: FloatArray) -> FloatArray:
+    """Return the symmetric (..., 3, 3) of upper triangles (..., 6)."""
+    return upper[..., UPPER].reshape(*upper.shape[:-1], 3, 3)
+
+
+def zupt_event(row: FloatArray, foot: int, stamp_ns: int) -> Event | None:
+    """Return the zero-velocity update in a row, if there is one."""
+    o = foot * at.O_FOOT + at.O_ZUPT
+    if not row[foot * at.O_FOOT + at.O_STANCE]:
+        return None
+    return Event(
+        EventKind.ZUPT,
+        stamp_ns,
+        FEET[foot],
+        stamp_ns,
+        row[o : o + 3],
+        row[o + 3 : o + 12].reshape(3, 3),
+        float(row[o + 12]),
+    )
+
+
+def turn_rows(rows: FloatArray, event: Event) -> None:
+    """Turn and move one foot's part of ``rows`` (N, OUT) in place, as a HEADING event says."""
+    yaw, foot = event.detail["yaw"], FEET.index(event.foot)
+    c, s = math.cos(yaw), math.sin(yaw)
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    pivot, shift = np.array(event.detail["pivot"]), np.array(event.detail["shift"])
+    part = rows[:, foot * at.O_FOOT : (foot + 1) * at.O_FOOT]
+    position, velocity = part[:, at.O_POS : at.O_POS + 3], part[:, at.O_VEL : at.O_VEL + 3]
+    position[:] = (position - pivot) @ turn.T + pivot + shift
+    velocity[:] = velocity @ turn.T
+    _turn_quaternions(part[:, at.O_QUAT : at.O_QUAT + 4], yaw)
+    for start in (at.O_COV_POS, at.O_COV_VEL, at.O_COV_ATT, at.O_ZUPT + 3):
+        size = 9 if start == at.O_ZUPT + 3 else 6
+        _turn_covariances(part[:, start : start + size], turn)
+    part[:, at.O_ZUPT : at.O_ZUPT + 3] = part[:, at.O_ZUPT : at.O_ZUPT + 3] @ turn.T
+
+
+def _turn_quaternions(quaternions: FloatArray, yaw: float) -> None:
+    c, s = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
+    x, y, z, w = quaternions.T.copy()
+    turned = np.stack([c * x - s * y, c * y + s * x, c * z + s * w, c * w - s * z], axis=1)
+    quaternions[:] = np.where(turned[:, 3:] < 0.0, -turned, turned)
+
+
+def _turn_covariances(cells: FloatArray, turn: FloatArray) -> None:
+    if cells.shape[1] == 9:
+        cells[:] = (turn @ cells.reshape(-1, 3, 3) @ turn.T).reshape(-1, 9)
+    else:
+        full = turn @ full_symmetric(cells) @ turn.T
+        cells[:] = full[:, [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]]
+
+
+def clean_stance(stamps: IntArray, events: Iterable[Event], foot: int) -> np.ndarray:
+    """Return (N,) bool: the stance phases as they were confirmed, from the events."""
+    stance = np.zeros(len(stamps), dtype=bool)
+    open_at: int | None = None
+    for event in events:
+        if event.foot != FEET[foot]:
+            continue
+        if event.kind is EventKind.STANCE_START:
+            open_at = event.stamp_ns
+        elif event.kind is EventKind.STANCE_END and open_at is not None:
+            first, last = np.searchsorted(stamps, [open_at, event.stamp_ns + 1])
+            stance[first:last] = True
+            open_at = None
+    if open_at is not None:
+        stance[np.searchsorted(stamps, open_at) :] = True
+    return stance
+
+
+def to_trajectory(
+    stamps: IntArray,
+    rows: FloatArray,
+    events: tuple[Event, ...],
+    counters: Mapping[str, int],
+    method: str,
+) -> Trajectory:
+    """Build the trajectory of rows (N, OUT) that all HEADING events have been applied to."""
+    feet = []
+    for foot in range(2):
+        part = rows[:, foot * at.O_FOOT : (foot + 1) * at.O_FOOT]
+        feet.append(
+            FootTrajectory(
+                stamps,
+                part[:, at.O_POS : at.O_POS + 3],
+                part[:, at.O_VEL : at.O_VEL + 3],
+                part[:, at.O_QUAT : at.O_QUAT + 4],
+                clean_stance(stamps, events, foot),
+                full_symmetric(part[:, at.O_COV_POS : at.O_COV_POS + 6]),
+                full_symmetric(part[:, at.O_COV_VEL : at.O_COV_VEL + 6]),
+                full_symmetric(part[:, at.O_COV_ATT : at.O_COV_ATT + 6]),
+            )
+        )
+    relative = full_symmetric(rows[:, at.O_RELATIVE : at.O_RELATIVE + 6])
+    start = int(stamps[0]) if len(stamps) else 0
+    return Trajectory(feet[0], feet[1], relative, events, dict(counters), start, method)

@@ -1,0 +1,259 @@
+"""The facade: synchronised pairs in, both feet's estimates and events out."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+
+import numpy as np
+
+from .alignment import Standstill
+from .config import TrackerConfig
+from .errors import AlignmentError, ConfigError
+from .kernel import BackgroundEngine, Engine, compiled, interpreted
+from .kernel import layout as at
+from .rows import to_trajectory, turn_rows
+from .series import FloatArray, ImuPair, ImuSeries, IntArray, stack_pairs
+from .session import Session
+from .trajectory import Event, EventKind, Trajectory
+from .update import Update
+
+LIMIT = 500.0  # m/s^2 and rad/s; no foot-mounted sensor reads more
+MAX_GAP_NS = 200_000_000  # a longer gap is bridged, not integrated
+TIME_JUMP_NS = 1_000_000_000  # further back than this is a new recording, not disorder
+
+
+class DualFootTracker:
+    """Tracks both feet of a walking person from synchronised pairs of samples.
+
+    ``engine`` is "auto" (live starts interpreted and goes over to the compiled kernel when it is
+    ready), "compiled" or "interpreted"; all three give the same bits.
+
+    Raises
+    ------
+    ConfigError
+        For an unknown ``engine``.
+    """
+
+    def __init__(self, config: TrackerConfig | None = None, *, engine: str = "auto") -> None:
+        """Start aligning with the first pair."""
+        if engine not in ("auto", "compiled", "interpreted"):
+            raise ConfigError(
+                f"engine is {engine!r}; allowed is one of auto, compiled, interpreted"
+            )
+        self.config = config or TrackerConfig()
+        self.counters: Counter[str] = Counter()
+        self._background = BackgroundEngine() if engine == "auto" else None
+        self._engine = compiled() if engine == "compiled" else interpreted()
+        self._pose: tuple[FloatArray, float] | None = None
+        self._begin()
+
+    def _begin(self) -> None:
+        self._standstill: Standstill | None = None
+        self._session: Session | None = None
+        self._last_ns: int | None = None
+        self._early: list[tuple[int, FloatArray]] = []
+        self._pending: list[Event] = []
+
+    @property
+    def engine(self) -> str:
+        """Which form of the kernel runs: "interpreted" or "compiled"."""
+        return self._engine.name
+
+    @property
+    def phase(self) -> str:
+        """"aligning", "standing" (aligned, still refining) or "walking"."""
+        return self._session.phase if self._session else "aligning"
+
+    @property
+    def complaint(self) -> str | None:
+        """Why the last window of the alignment was no standstill, if it was not."""
+        return self._standstill.complaint if self._standstill else None
+
+    def reset(self, stamp_ns: int | None = None, reason: str = "asked for") -> None:
+        """Forget everything but the counters and align anew."""
+        self.counters["resets"] += 1
+        self._begin()
+        stamp = 0 if stamp_ns is None else stamp_ns
+        detail = {"reason": reason}
+        self._pending.append(Event(EventKind.RESET, stamp, "both", stamp, detail=detail))
+
+    def set_pose(self, position: Sequence[float], yaw: float) -> None:
+        """Move and turn both tracks so that the person is at ``position`` (3,) m facing ``yaw``.
+
+        Takes effect with the next pair that is tracked.
+        """
+        self._pose = (np.array(position, dtype=np.float64), float(yaw))
+
+    def add(self, pair: ImuPair) -> Update:
+        """Take one pair; total: bad data gives a counted, named refusal, never an exception."""
+        stamp, values = int(pair.stamp_ns), pair.values
+        refused = self._refusal(stamp, values)
+        if refused is not None:
+            self.counters[refused] += 1
+            return Update(stamp, self.phase, refused=refused, events=self._take_pending())
+        self.counters["pairs"] += 1
+        if self._background is not None:
+            self._poll_engine()
+        dt_ns = 0 if self._last_ns is None else stamp - self._last_ns
+        self._last_ns = stamp
+        if self._session is None:
+            self._align(stamp, values)
+            return Update(stamp, "aligning", events=self._take_pending())
+        return self._track(self._session, stamp, dt_ns, values)
+
+    def _refusal(self, stamp: int, values: FloatArray) -> str | None:
+        for value in values.tolist():
+            if not -LIMIT < value < LIMIT:
+                return "out_of_range" if math.isfinite(value) else "not_finite"
+        if self._last_ns is None or stamp > self._last_ns:
+            return None
+        if stamp == self._last_ns:
+            return "duplicate"
+        if self._last_ns - stamp < TIME_JUMP_NS:
+            return "out_of_order"
+        self.reset(stamp, "time jumped back")
+        return None
+
+    def _poll_engine(self) -> None:
+        ready = self._background.poll() if self._background else None
+        if ready is not None:
+            self._use(ready)
+
+    def _use(self, engine: Engine) -> None:
+        self._engine, self._background = engine, None
+        if self._session is not None:
+            self._session.use(engine)
+
+    def _take_pending(self) -> tuple[Event, ...]:
+        events, self._pending = tuple(self._pending), []
+        return events
+
+    def _align(self, stamp: int, values: FloatArray) -> None:
+        """Collect the standstill; the first samples tell the rate."""
+        if self._standstill is None:
+            self._early.append((stamp, values.copy()))
+            if len(self._early) < 20:
+                return
+            intervals = np.diff([s for s, _ in self._early])
+            rate = 1e9 / max(1.0, float(np.median(intervals)))
+            self._standstill = Standstill(self.config.alignment, self.config.gravity, rate)
+            self._rate_hz = rate
+            early, self._early = self._early, []
+            for s, v in early:
+                self._collect(s, v)
+            return
+        self._collect(stamp, values)
+
+    def _collect(self, stamp: int, values: FloatArray) -> None:
+        still = self._standstill
+        assert still is not None
+        completed = still.add(values)
+        self.counters["alignment_restarts"] = still.restarts
+        if completed and still.ready and self._session is None:
+            self._session = Session(self.config, self._engine, still, self._rate_hz)
+            self._pending.append(self._session.aligned_event(stamp))
+
+    def _track(self, session: Session, stamp: int, dt_ns: int, values: FloatArray) -> Update:
+        bridged: list[Event] = []
+        if dt_ns > MAX_GAP_NS:
+            self.counters["gaps"] += 1
+            bridged = session.bridge(dt_ns * 1e-9)
+            dt_ns = round(1e9 / session.rate_hz)
+        events = [*self._take_pending(), *bridged, *self._apply_pose(session, stamp)]
+        row, found = session.step(stamp, dt_ns * 1e-9, values)
+        return Update(
+            stamp,
+            session.phase,
+            row=row,
+            events=(*events, *found),
+            space=session.space,
+            headings=session.headings,
+        )
+
+    def _apply_pose(self, session: Session, stamp: int) -> list[Event]:
+        if self._pose is None or not session.can_set_pose():
+            return []
+        (position, yaw), self._pose = self._pose, None
+        return session.set_pose(stamp, position, yaw)
+
+    def run(self, left: ImuSeries, right: ImuSeries) -> Trajectory:
+        """Track two series with equal stamps; the same bits as `add`, one by one.
+
+        Raises
+        ------
+        SeriesError
+            When the series do not have the same stamps.
+        AlignmentError
+            When there is no standstill to align from.
+        """
+        values = stack_pairs(left, right)
+        if self._background is not None:
+            engine = self._background.wait()
+            self._use(engine if engine is not None else self._engine)
+        stamps, rows, events = self._run(left.stamp_ns, values)
+        if self._session is None:
+            raise AlignmentError(self._no_standstill(left))
+        return to_trajectory(stamps, rows, tuple(events), self.counters, self.config.method)
+
+    def _no_standstill(self, left: ImuSeries) -> str:
+        need = self.config.alignment.duration
+        seen = self.complaint or f"the recording is {left.duration_s:.1f} s long"
+        return (
+            f"no standstill of {need:g} s of both feet found ({seen}); stand still with both feet "
+            "on the ground at the start, or change alignment.* if the sensors are noisier"
+        )
+
+    def _run(self, stamps: IntArray, values: FloatArray) -> tuple[IntArray, FloatArray, list]:
+        """Feed everything; long regular stretches of walking go through the kernel at once."""
+        count = len(stamps)
+        out = np.zeros((count, at.OUT))
+        kept = np.zeros(count, dtype=bool)
+        stops = next_irregular(regular_samples(stamps, values))
+        events: list[Event] = []
+        k = 0
+        while k < count:
+            session = self._session
+            stop = int(stops[k])
+            if session is not None and session.phase == "walking" and stop > k and not self._pose:
+                for row, found in session.steps(stamps, values, k, stop, out):
+                    _note(out, row, found, events)
+                kept[k:stop] = True
+                self.counters["pairs"] += stop - k
+                self._last_ns = int(stamps[stop - 1])
+                k = stop
+                continue
+            update = self.add(ImuPair(int(stamps[k]), values[k]))
+            if any(event.kind is EventKind.RESET for event in update.announced):
+                kept[:k] = False
+                events.clear()
+            if update.row is not None:
+                out[k], kept[k] = update.row, True
+            _note(out, k, update.announced, events)
+            k += 1
+        return stamps[kept], out[kept], events
+
+
+def _note(out: FloatArray, row: int, found: Sequence[Event], events: list[Event]) -> None:
+    """Keep the events of a row; a heading turns the rows before it."""
+    for event in found:
+        if event.kind is EventKind.HEADING:
+            turn_rows(out[:row], event)
+    events.extend(found)
+
+
+def regular_samples(stamps: IntArray, values: FloatArray) -> np.ndarray:
+    """Return (N,) bool: samples that `add` would take without a remark, whatever came before."""
+    good = (np.abs(values) < LIMIT).all(axis=1)
+    steps = np.diff(stamps, prepend=stamps[:1])
+    regular = good & (steps > 0) & (steps <= MAX_GAP_NS)
+    regular[1:] &= good[:-1] & ((steps[:-1] > 0) | (np.arange(len(stamps) - 1) == 0))
+    return regular
+
+
+def next_irregular(regular: np.ndarray) -> IntArray:
+    """Return (N,) the index of the first irregular sample at or after each (N if none)."""
+    count = len(regular)
+    index = np.where(regular, count, np.arange(count))
+    return np.minimum.accumulate(index[::-1])[::-1]

@@ -1,0 +1,163 @@
+"""What one epoch of the tracker gives: both feet's estimates and the events of the epoch."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .kernel import layout as at
+from .rows import full_symmetric, zupt_event
+from .series import FloatArray
+from .trajectory import Event
+from .workspace import Workspace
+
+
+@dataclass(frozen=True)
+class FootEstimate:
+    """The estimate of one foot at one epoch, in the navigation frame (z up)."""
+
+    row: FloatArray
+    pose: FloatArray
+
+    @property
+    def position(self) -> FloatArray:
+        """Position (3,) m."""
+        return self.row[at.O_POS : at.O_POS + 3]
+
+    @property
+    def velocity(self) -> FloatArray:
+        """Velocity (3,) m/s in the navigation frame."""
+        return self.row[at.O_VEL : at.O_VEL + 3]
+
+    @property
+    def quaternion(self) -> FloatArray:
+        """Body to navigation (4,), Hamilton, x y z w."""
+        return self.row[at.O_QUAT : at.O_QUAT + 4]
+
+    @property
+    def stance(self) -> bool:
+        """Whether the foot has zero velocity as far as is known now."""
+        return bool(self.row[at.O_STANCE])
+
+    @property
+    def angular_rate(self) -> FloatArray:
+        """Bias-corrected angular rate (3,) rad/s in the body frame."""
+        return self.row[at.O_RATE : at.O_RATE + 3]
+
+    @property
+    def yaw(self) -> float:
+        """Heading of the body x axis, rad."""
+        return quaternion_yaw(self.quaternion)
+
+    def pose_covariance(self) -> FloatArray:
+        """Return the covariance (6, 6) of position (m) and rotation about fixed axes (rad)."""
+        return self.pose
+
+    def twist_covariance(self) -> FloatArray:
+        """Return the covariance (3, 3) of the velocity in the navigation frame, (m/s)^2."""
+        return full_symmetric(self.row[at.O_COV_VEL : at.O_COV_VEL + 6])
+
+
+@dataclass(frozen=True)
+class PedestrianEstimate:
+    """The person between the feet.
+
+    ``heading`` is the direction the person faces, rad: the mean of the feet's headings as last
+    seen in stance, against what they were on the first strides.
+    """
+
+    position: FloatArray
+    velocity: FloatArray
+    heading: float
+    pose_covariance: FloatArray
+
+
+class Update:
+    """The result of one pair: what phase the tracker is in, the estimates, the events.
+
+    While the phase is "aligning" there is no estimate and ``left`` and ``right`` are None.
+    """
+
+    __slots__ = ("_headings", "_joint", "_noted", "phase", "refused", "row", "stamp_ns")
+
+    def __init__(
+        self,
+        stamp_ns: int,
+        phase: str,
+        *,
+        refused: str | None = None,
+        row: FloatArray | None = None,
+        events: tuple[Event, ...] = (),
+        space: Workspace | None = None,
+        headings: tuple[float, float] = (0.0, 0.0),
+    ) -> None:
+        """Keep what was computed; covariances are copied only when asked for within the epoch."""
+        self.stamp_ns, self.phase, self.refused, self.row = stamp_ns, phase, refused, row
+        self._noted, self._joint, self._headings = events, space, headings
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """Everything that was applied or found at this epoch, zero-velocity updates included."""
+        if self.row is None:
+            return self._noted
+        zupts = (zupt_event(self.row, foot, self.stamp_ns) for foot in range(2))
+        return (*(event for event in zupts if event is not None), *self._noted)
+
+    @property
+    def announced(self) -> tuple[Event, ...]:
+        """The events without the zero-velocity updates (cheap: most epochs have none)."""
+        return self._noted
+
+    @property
+    def left(self) -> FootEstimate | None:
+        """Estimate of the left foot."""
+        return self._foot(0)
+
+    @property
+    def right(self) -> FootEstimate | None:
+        """Estimate of the right foot."""
+        return self._foot(1)
+
+    def _foot(self, foot: int) -> FootEstimate | None:
+        if self.row is None or self._joint is None:
+            return None
+        row = self.row[foot * at.O_FOOT : (foot + 1) * at.O_FOOT]
+        start = at.PLL if foot == 0 else at.PRR
+        block = self._joint.w[start : start + at.BLOCK].reshape(15, at.ROW)
+        return FootEstimate(row, pose_part(block))
+
+    def pedestrian(self) -> PedestrianEstimate | None:
+        """Return the mid-point of the feet with heading, from the joint covariance.
+
+        Like the feet's covariances it must be asked for before the next pair is added.
+        """
+        if self.row is None or self._joint is None:
+            return None
+        left, right = self.row[: at.O_FOOT], self.row[at.O_FOOT : 2 * at.O_FOOT]
+        joint = self._joint.covariance()
+        mean = np.zeros((6, 30))
+        pose = [at.E_POS, at.E_POS + 1, at.E_POS + 2, at.E_ATT, at.E_ATT + 1, at.E_ATT + 2]
+        for i, state in enumerate(pose):
+            mean[i, state] = mean[i, 15 + state] = 0.5
+        a, b = self._headings
+        heading = math.atan2(math.sin(a) + math.sin(b), math.cos(a) + math.cos(b))
+        return PedestrianEstimate(
+            0.5 * (left[at.O_POS : at.O_POS + 3] + right[at.O_POS : at.O_POS + 3]),
+            0.5 * (left[at.O_VEL : at.O_VEL + 3] + right[at.O_VEL : at.O_VEL + 3]),
+            heading,
+            mean @ joint @ mean.T,
+        )
+
+
+def pose_part(block: FloatArray) -> FloatArray:
+    """Return the (6, 6) position and attitude part of a foot's covariance block."""
+    keep = [at.E_POS, at.E_POS + 1, at.E_POS + 2, at.E_ATT, at.E_ATT + 1, at.E_ATT + 2]
+    return block[np.ix_(keep, keep)]
+
+
+def quaternion_yaw(q: FloatArray) -> float:
+    """Return the heading of the x axis of a quaternion (x, y, z, w), rad."""
+    x, y, z, w = (float(v) for v in q)
+    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))

@@ -1,0 +1,215 @@
+"""Evaluate one trajectory of both feet against whatever is known about the walk."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from ..core.series import IntArray
+from ..core.trajectory import EventKind, FootTrajectory, Trajectory
+from .accuracy import Errors, StrideErrors, heading_error, position_errors, stride_errors
+from .align import (
+    Markers,
+    Options,
+    Truth,
+    apply_transforms,
+    find_transforms,
+    overlap,
+    stood_on,
+    to_markers,
+)
+from .association import Footfalls
+from .closure import Closure, closure
+from .consistency import Consistency, consistency
+from .errors import EvaluationError
+from .feet import FeetReport, feet_report
+from .frames import Align, YawTransform
+from .heading import HeadingErrors, heading_errors
+from .markers import MarkerErrors, marker_errors
+from .plain import plain
+
+
+@dataclass(frozen=True)
+class TruthReport:
+    """Everything that needs the truth."""
+
+    left: Errors
+    right: Errors
+    midpoint: Errors
+    left_strides: StrideErrors
+    right_strides: StrideErrors
+    heading: HeadingErrors
+    nees: Consistency
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """One evaluated trajectory, in the frame of its reference where it has one.
+
+    Attributes
+    ----------
+    trajectory : aligned, and cut to the time of the truth
+    truth : at the stamps of the trajectory, or None
+    markers : the floor markers, or None
+    options, transforms : what aligned it (no transforms without a reference)
+    aligned_to : "truth", "markers" or None
+    """
+
+    trajectory: Trajectory
+    truth: Truth | None
+    markers: Markers | None
+    options: Options
+    transforms: dict[str, YawTransform]
+    aligned_to: str | None
+    truth_report: TruthReport | None
+    marker_report: MarkerErrors | None
+    closure: Closure | None
+    feet: FeetReport
+    notes: tuple[str, ...] = ()
+
+    @property
+    def feet_tracks(self) -> dict[str, FootTrajectory]:
+        """Return both aligned feet by name."""
+        return {"left": self.trajectory.left, "right": self.trajectory.right}
+
+    @property
+    def alignment_name(self) -> str:
+        """Say in words how the frame was fixed."""
+        if self.aligned_to is None:
+            return "none (no reference)"
+        feet = "one transform for both feet" if len(self._distinct) == 1 else "one for each foot"
+        if self.aligned_to == "markers":
+            feet = "one transform, from the foot on the markers"
+        how = self.options.align.value
+        if self.options.align is Align.FIRST_STRIDES:
+            how += f" (start, and heading over the first {self.options.length_m:g} m)"
+        else:
+            how += " (yaw and translation over the whole walk)"
+        return f"{how}, {feet}, to the {self.aligned_to}"
+
+    @property
+    def _distinct(self) -> set[int]:
+        return {id(t) for t in self.transforms.values()}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all figures as plain values for JSON; None where a figure does not exist."""
+        track = self.trajectory
+        return plain(
+            {
+                "method": track.method,
+                "start_ns": track.start_ns,
+                "duration_s": (int(track.left.stamp_ns[-1]) - int(track.left.stamp_ns[0])) * 1e-9,
+                "epochs": len(track.left),
+                "stances": {n: len(Footfalls.of(f)) for n, f in self.feet_tracks.items()},
+                "distance_m": {n: f.distance_m for n, f in self.feet_tracks.items()},
+                "alignment": self._alignment(),
+                "truth": self.truth_report and asdict(self.truth_report),
+                "markers": self.marker_report and asdict(self.marker_report),
+                "closure": self.closure and asdict(self.closure),
+                "feet": asdict(self.feet),
+                "events": event_counts(track),
+                "counters": dict(track.counters),
+                "notes": list(self.notes),
+            }
+        )
+
+    def _alignment(self) -> dict[str, Any]:
+        aligned = self.aligned_to is not None
+        length = self.options.length_m if self.options.align is Align.FIRST_STRIDES else None
+        return {
+            "method": self.options.align.value if aligned else None,
+            "length_m": length if aligned else None,
+            "pair": self.options.pair.value if aligned else None,
+            "to": self.aligned_to,
+            "words": self.alignment_name,
+            **{foot: transform.to_dict() for foot, transform in self.transforms.items()},
+        }
+
+
+def evaluate(
+    trajectory: Trajectory,
+    *,
+    truth: Truth | None = None,
+    markers: Markers | None = None,
+    options: Options | None = None,
+    notes: tuple[str, ...] = (),
+) -> Evaluation:
+    """Evaluate a trajectory against truth, floor markers, or only itself.
+
+    Raises
+    ------
+    EvaluationError
+        When the reference does not overlap the estimate or cannot fix its frame.
+    """
+    options = options or Options()
+    if len(trajectory.left) < 2:
+        raise EvaluationError(f"the trajectory has {len(trajectory.left)} epochs; 2 are needed")
+    if truth is not None:
+        trajectory, truth = overlap(trajectory, truth)
+    transforms, aligned_to = find_transforms(trajectory, truth, markers, options)
+    moved = apply_transforms(trajectory, transforms)
+    return Evaluation(
+        trajectory=moved,
+        truth=truth,
+        markers=markers,
+        options=options,
+        transforms=transforms,
+        aligned_to=aligned_to,
+        truth_report=None if truth is None else _against_truth(moved, truth),
+        marker_report=None if markers is None else _against_markers(trajectory, markers, options),
+        closure=closure(trajectory.left, trajectory.right),
+        feet=_feet(moved, truth),
+        notes=notes,
+    )
+
+
+def event_counts(trajectory: Trajectory) -> dict[str, dict[str, int]]:
+    """Return how many events of each kind were applied and refused."""
+    counts: dict[str, Counter[str]] = {kind.value: Counter() for kind in EventKind}
+    for event in trajectory.events:
+        counts[event.kind.value]["applied" if event.accepted else "refused"] += 1
+    return {kind: dict(count) for kind, count in counts.items() if count}
+
+
+def _against_markers(trajectory: Trajectory, markers: Markers, options: Options) -> MarkerErrors:
+    stood = stood_on(trajectory, markers.foot)
+    transform = to_markers(trajectory, markers, options)
+    if transform is not None:
+        stood = transform.position(stood)
+    return marker_errors(markers.foot, stood, markers.position)
+
+
+def _against_truth(aligned: Trajectory, truth: Truth) -> TruthReport:
+    feet = (aligned.left, aligned.right)
+    falls = [Footfalls.of(foot) for foot in feet]
+    walked = [f.walked(t.position, t.stamp_ns) for f, t in zip(falls, truth, strict=True)]
+    errors = [f.position - t.position for f, t in zip(feet, truth, strict=True)]
+    turns = [heading_error(f.quaternion, t.quaternion) for f, t in zip(feet, truth, strict=True)]
+    return TruthReport(
+        left=position_errors(errors[0], walked[0]),
+        right=position_errors(errors[1], walked[1]),
+        midpoint=position_errors((errors[0] + errors[1]) / 2, (walked[0] + walked[1]) / 2),
+        left_strides=stride_errors(feet[0], truth[0], falls[0]),
+        right_strides=stride_errors(feet[1], truth[1], falls[1]),
+        heading=heading_errors(turns[0], turns[1]),
+        nees=consistency(
+            feet, truth, (falls[0].middle, falls[1].middle), aligned.relative_covariance
+        ),
+    )
+
+
+def _feet(aligned: Trajectory, truth: Truth | None) -> FeetReport:
+    known = None if truth is None else (truth[0].position, truth[1].position)
+    return feet_report(aligned.left, aligned.right, constraint_epochs(aligned), known)
+
+
+def constraint_epochs(trajectory: Trajectory, accepted: bool = True) -> IntArray:
+    """Return the (K,) epochs of the constraint events that were (or were not) applied."""
+    stamps = trajectory.left.stamp_ns
+    events = [e for e in trajectory.of_kind(EventKind.CONSTRAINT) if e.accepted is accepted]
+    at = np.array([e.stamp_ns for e in events], dtype=np.int64)
+    at = at[(at >= stamps[0]) & (at <= stamps[-1])]
+    return np.unique(np.searchsorted(stamps, at))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ..core.series import FloatArray, PoseSeries
@@ -22,12 +23,8 @@ class Options:
     length_m: float = FIRST_STRIDES_M
 
 
-@dataclass(frozen=True)
-class Markers:
-    """Where one foot stood, stance by stance: (K, 3) m, in order."""
-
-    foot: str
-    position: FloatArray
+Markers = Mapping[str, FloatArray]
+"""Where a foot ("left", "right" or both) stood, stance by stance: (K, 3) m, in order."""
 
 
 def overlap(trajectory: Trajectory, truth: Truth) -> tuple[Trajectory, Truth]:
@@ -41,7 +38,7 @@ def overlap(trajectory: Trajectory, truth: Truth) -> tuple[Trajectory, Truth]:
 
 
 def find_transforms(
-    trajectory: Trajectory, truth: Truth | None, markers: Markers | None, options: Options
+    trajectory: Trajectory, truth: Truth | None, markers: Markers, options: Options
 ) -> tuple[dict[str, YawTransform], str | None]:
     """Return the transform of each foot and what it aligns to; none without a reference.
 
@@ -52,10 +49,8 @@ def find_transforms(
     """
     if truth is not None:
         return _to_truth(trajectory, truth, options), "truth"
-    if markers is not None:
-        one = to_markers(trajectory, markers, options)
-        return ({}, None) if one is None else ({"left": one, "right": one}, "markers")
-    return {}, None
+    one = to_markers(trajectory, markers, options)
+    return ({}, None) if one is None else ({"left": one, "right": one}, "markers")
 
 
 def _to_truth(trajectory: Trajectory, truth: Truth, options: Options) -> dict[str, YawTransform]:
@@ -80,12 +75,21 @@ def _to_truth(trajectory: Trajectory, truth: Truth, options: Options) -> dict[st
 
 
 def to_markers(trajectory: Trajectory, markers: Markers, options: Options) -> YawTransform | None:
-    """Fit the foot that stood on the markers; None when too few stances were found."""
-    stood = stood_on(trajectory, markers.foot)
-    known = min(len(stood), len(markers.position))
-    if known < 2 or (options.align is Align.UMEYAMA4 and len(stood) != len(markers.position)):
+    """Fit the feet that stood on markers; None when none did or too few stances were found.
+
+    With ``umeyama4`` a foot whose stances are not as many as its markers does not take part.
+    """
+    estimates, references = [], []
+    for foot, points in markers.items():
+        stood = stood_on(trajectory, foot)
+        known = min(len(stood), len(points))
+        whole = options.align is Align.UMEYAMA4
+        if known >= 2 and not (whole and len(stood) != len(points)):
+            estimates.append(stood[:known])
+            references.append(points[:known])
+    if not estimates:
         return None
-    return fit(options.align, [stood[:known]], [markers.position[:known]], options.length_m)
+    return fit(options.align, estimates, references, options.length_m)
 
 
 def stood_on(trajectory: Trajectory, foot: str) -> FloatArray:

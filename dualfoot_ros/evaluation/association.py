@@ -13,7 +13,7 @@ from .errors import EvaluationError
 
 def seconds(stamp_ns: IntArray, origin_ns: int) -> FloatArray:
     """Return (N,) seconds since ``origin_ns``."""
-    return (np.asarray(stamp_ns) - origin_ns) * 1e-9
+    return (np.asarray(stamp_ns, dtype=np.int64) - origin_ns) * np.float64(1e-9)
 
 
 def truth_at(stamp_ns: IntArray, truth: PoseSeries) -> PoseSeries:

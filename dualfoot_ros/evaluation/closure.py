@@ -17,7 +17,7 @@ class Closure:
     """Distance from the first to the last stance; an error where the walk is a loop.
 
     ``midpoint_*`` is the gap of the point midway between the feet, ``mean_m`` the mean of the
-    gaps of the feet (never smaller).  Percent are of the distance walked.
+    gaps of the feet (never smaller).  Percent are of the distance walked (see :func:`closure`).
     """
 
     left_m: float
@@ -30,25 +30,31 @@ class Closure:
     midpoint_percent: float | None
 
 
-def closure(left: FootTrajectory, right: FootTrajectory) -> Closure | None:
-    """Return the gaps between first and last stance (horizontal), None without any stance."""
-    feet = (left, right)
-    falls = [Footfalls.of(foot) for foot in feet]
-    if min(len(f) for f in falls) == 0:
+def closure(
+    left: FootTrajectory, right: FootTrajectory, length_m: float | None = None
+) -> Closure | None:
+    """Return the gaps between first and last stance (horizontal), None without any stance.
+
+    Percent are of ``length_m`` where it is known, otherwise of the estimated way of each foot.
+    """
+    falls_left, falls_right = Footfalls.of(left), Footfalls.of(right)
+    if min(len(falls_left), len(falls_right)) == 0:
         return None
-    gaps = [_gap(f.mean(foot.position)) for f, foot in zip(falls, feet, strict=True)]
-    sizes = [float(np.linalg.norm(gap)) for gap in gaps]
-    ways = [foot.distance_m for foot in feet]
-    mean, midpoint = float(np.mean(sizes)), float(np.linalg.norm(np.mean(gaps, axis=0)))
-    way = float(np.mean(ways))
+    gap_left = _gap(falls_left.mean(left.position))
+    gap_right = _gap(falls_right.mean(right.position))
+    size_left, size_right = float(np.linalg.norm(gap_left)), float(np.linalg.norm(gap_right))
+    mean, midpoint = (size_left + size_right) / 2, float(np.linalg.norm(gap_left + gap_right)) / 2
+    way_left, way_right = length_m or left.distance_m, length_m or right.distance_m
+    way = (way_left + way_right) / 2
     return Closure(
-        *sizes,
-        mean,
-        midpoint,
-        percent(sizes[0], ways[0]),
-        percent(sizes[1], ways[1]),
-        percent(mean, way),
-        percent(midpoint, way),
+        left_m=size_left,
+        right_m=size_right,
+        mean_m=mean,
+        midpoint_m=midpoint,
+        left_percent=percent(size_left, way_left),
+        right_percent=percent(size_right, way_right),
+        mean_percent=percent(mean, way),
+        midpoint_percent=percent(midpoint, way),
     )
 
 

@@ -1,4 +1,4 @@
-"""Normalised estimation error squared (NEES): can the covariance be believed?
+"""Normalised estimation error squared (NEES): whether the covariance can be believed.
 
 For a consistent filter ``e' P^-1 e`` has the mean of its number of dimensions (Bar-Shalom et al.
 2001, section 5.4), so the figures here, divided by that number, are 1 when the covariance is
@@ -50,18 +50,33 @@ def consistency(
     relative_covariance: FloatArray,
 ) -> Consistency:
     """Return the NEES of both aligned feet against the truth at the same stamps."""
-    position, velocity, attitude = [], [], []
-    for foot, true, at in zip(feet, truth, middles, strict=True):
-        position.append(_mean(foot.position - true.position, foot.position_covariance, at))
-        turned = attitude_error(foot.quaternion, true.quaternion)
-        attitude.append(_mean(turned, foot.attitude_covariance, at))
-        known = true.velocity is not None
-        velocity.append(
-            _mean(foot.velocity - true.velocity, foot.velocity_covariance, at) if known else None
-        )
+    rows = [_foot(foot, true, at) for foot, true, at in zip(feet, truth, middles, strict=True)]
+    (left_p, left_v, left_a), (right_p, right_v, right_a) = rows
     apart = feet[0].position - feet[1].position - (truth[0].position - truth[1].position)
-    both = np.concatenate(middles)
-    return Consistency(*position, *velocity, *attitude, _mean(apart, relative_covariance, both))
+    return Consistency(
+        left_position=left_p,
+        right_position=right_p,
+        left_velocity=left_v,
+        right_velocity=right_v,
+        left_attitude=left_a,
+        right_attitude=right_a,
+        relative_position=_mean(apart, relative_covariance, np.concatenate(middles)),
+    )
+
+
+def _foot(
+    foot: FootTrajectory, true: PoseSeries, at: IntArray
+) -> tuple[float, float | None, float]:
+    """Return the mean NEES of position, of velocity where it is known, and of attitude."""
+    velocity = None
+    if true.velocity is not None:
+        velocity = _mean(foot.velocity - true.velocity, foot.velocity_covariance, at)
+    turned = attitude_error(foot.quaternion, true.quaternion)
+    return (
+        _mean(foot.position - true.position, foot.position_covariance, at),
+        velocity,
+        _mean(turned, foot.attitude_covariance, at),
+    )
 
 
 def attitude_error(estimate: FloatArray, truth: FloatArray) -> FloatArray:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.series import IntArray
 from ..core.trajectory import EventKind, FootTrajectory, Trajectory
+from ..recording.reference import Reference
 from .accuracy import Errors, StrideErrors, heading_error, position_errors, stride_errors
 from .align import (
     Markers,
@@ -53,20 +54,22 @@ class Evaluation:
     ----------
     trajectory : aligned, and cut to the time of the truth
     truth : at the stamps of the trajectory, or None
-    markers : the floor markers, or None
+    markers : foot -> (K, 3) m, the floor markers it stood on; may be empty
     options, transforms : what aligned it (no transforms without a reference)
     aligned_to : "truth", "markers" or None
+    closed_loop : the reference says that each foot ends where it started
     """
 
     trajectory: Trajectory
     truth: Truth | None
-    markers: Markers | None
+    markers: Markers
     options: Options
     transforms: dict[str, YawTransform]
     aligned_to: str | None
     truth_report: TruthReport | None
-    marker_report: MarkerErrors | None
+    marker_report: dict[str, MarkerErrors]
     closure: Closure | None
+    closed_loop: bool
     feet: FeetReport
     notes: tuple[str, ...] = ()
 
@@ -82,7 +85,7 @@ class Evaluation:
             return "none (no reference)"
         feet = "one transform for both feet" if len(self._distinct) == 1 else "one for each foot"
         if self.aligned_to == "markers":
-            feet = "one transform, from the foot on the markers"
+            feet = "one transform for both feet"
         how = self.options.align.value
         if self.options.align is Align.FIRST_STRIDES:
             how += f" (start, and heading over the first {self.options.length_m:g} m)"
@@ -107,7 +110,8 @@ class Evaluation:
                 "distance_m": {n: f.distance_m for n, f in self.feet_tracks.items()},
                 "alignment": self._alignment(),
                 "truth": self.truth_report and asdict(self.truth_report),
-                "markers": self.marker_report and asdict(self.marker_report),
+                "markers": {n: asdict(m) for n, m in self.marker_report.items()} or None,
+                "closed_loop": self.closed_loop,
                 "closure": self.closure and asdict(self.closure),
                 "feet": asdict(self.feet),
                 "events": event_counts(track),
@@ -133,7 +137,7 @@ def evaluate(
     trajectory: Trajectory,
     *,
     truth: Truth | None = None,
-    markers: Markers | None = None,
+    reference: Reference | None = None,
     options: Options | None = None,
     notes: tuple[str, ...] = (),
 ) -> Evaluation:
@@ -145,6 +149,8 @@ def evaluate(
         When the reference does not overlap the estimate or cannot fix its frame.
     """
     options = options or Options()
+    markers: Markers = {} if reference is None else reference.markers
+    length = None if reference is None else reference.length_m
     if len(trajectory.left) < 2:
         raise EvaluationError(f"the trajectory has {len(trajectory.left)} epochs; 2 are needed")
     if truth is not None:
@@ -159,8 +165,9 @@ def evaluate(
         transforms=transforms,
         aligned_to=aligned_to,
         truth_report=None if truth is None else _against_truth(moved, truth),
-        marker_report=None if markers is None else _against_markers(trajectory, markers, options),
-        closure=closure(trajectory.left, trajectory.right),
+        marker_report=_against_markers(trajectory, markers, options),
+        closure=closure(trajectory.left, trajectory.right, length),
+        closed_loop=reference is not None and reference.closed_loop,
         feet=_feet(moved, truth),
         notes=notes,
     )
@@ -174,12 +181,17 @@ def event_counts(trajectory: Trajectory) -> dict[str, dict[str, int]]:
     return {kind: dict(count) for kind, count in counts.items() if count}
 
 
-def _against_markers(trajectory: Trajectory, markers: Markers, options: Options) -> MarkerErrors:
-    stood = stood_on(trajectory, markers.foot)
+def _against_markers(
+    trajectory: Trajectory, markers: Markers, options: Options
+) -> dict[str, MarkerErrors]:
+    """Compare in a frame of the markers' own, so that truth may lie in another one."""
     transform = to_markers(trajectory, markers, options)
-    if transform is not None:
-        stood = transform.position(stood)
-    return marker_errors(markers.foot, stood, markers.position)
+    reports = {}
+    for foot, points in markers.items():
+        stood = stood_on(trajectory, foot)
+        aligned = stood if transform is None else transform.position(stood)
+        reports[foot] = marker_errors(foot, aligned, points)
+    return reports
 
 
 def _against_truth(aligned: Trajectory, truth: Truth) -> TruthReport:

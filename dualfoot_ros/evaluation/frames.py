@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from enum import Enum
+from enum import StrEnum
 
 import numpy as np
 
@@ -29,14 +29,14 @@ FIRST_STRIDES_M = 4.8
 """Length of the start over which ``first_strides`` fits the heading (five floor markers)."""
 
 
-class Align(str, Enum):
+class Align(StrEnum):
     """How the frame of an estimate is fixed to that of the reference."""
 
     FIRST_STRIDES = "first_strides"
     UMEYAMA4 = "umeyama4"
 
 
-class Pair(str, Enum):
+class Pair(StrEnum):
     """One transform for both feet, or one for each foot."""
 
     COMMON = "common"

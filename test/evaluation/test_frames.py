@@ -82,7 +82,8 @@ def test_first_strides_refuses_a_walk_without_a_stride():
 def test_first_strides_of_two_feet_joins_the_middle_of_their_starts():
     left = np.column_stack([np.arange(5), np.full(5, 0.1), np.zeros(5)])
     right = left - [0.0, 0.2, 0.0]
-    found = first_strides([left + [0, 0.5, 0], right + [0, 0.5, 0]], [left, right])
+    aside = np.array([0.0, 0.5, 0.0])
+    found = first_strides([left + aside, right + aside], [left, right])
     np.testing.assert_allclose(found.translation, [0.0, -0.5, 0.0], atol=1e-12)
 
 

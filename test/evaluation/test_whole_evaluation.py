@@ -9,11 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dualfoot_ros.core.series import PoseSeries
-from dualfoot_ros.evaluation.align import Markers, Options
+from dualfoot_ros.evaluation.align import Options
 from dualfoot_ros.evaluation.errors import EvaluationError
 from dualfoot_ros.evaluation.evaluate import evaluate
 from dualfoot_ros.evaluation.frames import Align, Pair, YawTransform
 from dualfoot_ros.evaluation.tum import write_tracks
+from dualfoot_ros.recording.reference import Reference
 
 from .walks import perfect, rectangle
 
@@ -83,26 +84,31 @@ def test_the_whole_walk_fitted_has_no_more_rmse_than_the_first_strides_fitted():
 def test_markers_are_met_by_a_track_turned_away_from_them():
     track, _ = perfect(rectangle())
     stood = evaluate(track).trajectory.right
-    markers = Markers("right", known_stances(stood))
-    found = evaluate(moved(track, 1.0, (3, 4, 5)), markers=markers)
+    markers = on_markers(known_stances(stood))
+    found = evaluate(moved(track, 1.0, (3, 4, 5)), reference=markers)
     assert found.aligned_to == "markers"
-    assert found.marker_report.stances == found.marker_report.markers == 21
-    assert found.marker_report.rmse_m < 1e-9
+    assert found.marker_report["right"].stances == found.marker_report["right"].markers == 21
+    assert found.marker_report["right"].rmse_m < 1e-9
 
 
 def test_a_track_one_degree_off_its_first_markers_has_the_rmse_of_the_chord():
     points = np.column_stack([np.arange(21) * 1.2, np.zeros(21)])
     track, _ = perfect(points)
-    markers = Markers("right", known_stances(track.right))
+    markers = on_markers(known_stances(track.right))
     bend = np.radians(1.0)
     late = track.right.position[:, 0] > 4.9
     x = track.right.position[:, 0] - 4.8
     track.right.position[late, 0] = 4.8 + x[late] * np.cos(bend)
     track.right.position[late, 1] += x[late] * np.sin(bend)
-    errors = evaluate(track, markers=markers).marker_report
+    errors = evaluate(track, reference=markers).marker_report["right"]
     beyond = np.arange(1, 17) * 1.2 * 2 * np.sin(bend / 2)
     assert errors.rmse_m == pytest.approx(np.sqrt(np.sum(beyond**2) / 21), rel=1e-6)
     assert errors.end_m == pytest.approx(beyond[-1], rel=1e-6)
+
+
+def on_markers(points):
+    """Return a reference of the right foot's markers."""
+    return Reference("made by formula", {"right": points})
 
 
 def known_stances(track):
@@ -114,8 +120,8 @@ def known_stances(track):
 
 def test_a_missed_stance_leaves_no_marker_error_rather_than_a_wrong_one():
     track, _ = perfect(rectangle())
-    markers = Markers("right", known_stances(track.right)[:-1])
-    errors = evaluate(track, markers=markers).marker_report
+    markers = on_markers(known_stances(track.right)[:-1])
+    errors = evaluate(track, reference=markers).marker_report["right"]
     assert (errors.stances, errors.markers) == (21, 20)
     assert errors.rmse_m is None
 

@@ -16,7 +16,7 @@ class Alignment(Parameters):
     """Levelling and gyro bias from a standstill that is checked, not assumed."""
 
     duration: float = parameter(
-        2.5, "standstill needed before output starts", unit="s", minimum=0.5, maximum=60.0
+        2.0, "standstill needed before output starts", unit="s", minimum=0.5, maximum=60.0
     )
     window: float = parameter(
         0.75, "length of the windows that are checked", unit="s", minimum=0.1, maximum=5.0
@@ -31,7 +31,11 @@ class Alignment(Parameters):
         0.15, "specific force scatter of a still window", unit="m/s^2", minimum=1e-4, maximum=5.0
     )
     max_rate: float = parameter(
-        0.15, "mean angular rate (a bias) of a still window", unit="rad/s", minimum=0.0, maximum=1.0
+        0.15,
+        "mean angular rate (a bias) of a still window",
+        unit="rad/s",
+        minimum=0.0,
+        maximum=1.0,
     )
     max_gravity_error: float = parameter(
         1.0, "mean specific force may differ from g by", unit="m/s^2", minimum=0.01, maximum=5.0
@@ -109,10 +113,10 @@ class Stance(Parameters):
         6000.0, "GLRT threshold gamma (dimensionless)", minimum=1.0, maximum=1e9
     )
     gyro_std: float = parameter(
-        5.0e-3, "angular rate noise in the GLRT", unit="rad/s", minimum=1e-6, maximum=1.0
+        1.4e-2, "angular rate noise in the GLRT", unit="rad/s", minimum=1e-6, maximum=1.0
     )
     force_std: float = parameter(
-        1.5e-2, "specific force noise in the GLRT", unit="m/s^2", minimum=1e-6, maximum=10.0
+        4.2e-2, "specific force noise in the GLRT", unit="m/s^2", minimum=1e-6, maximum=10.0
     )
     min_stance: float = parameter(
         0.1, "a shorter stance is none", unit="s", minimum=0.0, maximum=1.0
@@ -126,9 +130,7 @@ class Stance(Parameters):
 class Zupt(Parameters):
     """Zero-velocity update, eq. (12), at the point about which the foot pivots."""
 
-    std: float = parameter(
-        0.03, "velocity noise in stance", unit="m/s", minimum=1e-4, maximum=1.0
-    )
+    std: float = parameter(0.03, "velocity noise in stance", unit="m/s", minimum=1e-4, maximum=1.0)
     rate_std: float = parameter(
         0.05,
         "velocity noise added per angular rate",
@@ -145,7 +147,7 @@ class Zupt(Parameters):
     )
 
 
-GROUPS = {
+GROUPS: dict[str, type[Parameters]] = {
     "alignment": Alignment,
     "heading": Heading,
     "noise": Noise,
@@ -160,9 +162,7 @@ class TrackerConfig(Parameters):
     """The whole configuration: the method's name, the common groups, each method's own group."""
 
     method: str = parameter("idc", "which system of the papers to run", choices=tuple(METHODS))
-    gravity: float = parameter(
-        9.80665, "local gravity", unit="m/s^2", minimum=9.7, maximum=9.9
-    )
+    gravity: float = parameter(9.80665, "local gravity", unit="m/s^2", minimum=9.7, maximum=9.9)
     alignment: Alignment = field(default_factory=Alignment)
     heading: Heading = field(default_factory=Heading)
     noise: Noise = field(default_factory=Noise)
@@ -174,7 +174,7 @@ class TrackerConfig(Parameters):
     @property
     def constraint(self) -> Parameters:
         """Parameters of the selected method."""
-        return self.methods.get(self.method, METHODS[self.method].Config())
+        return self.methods.get(self.method, method_parameters(self.method)())
 
     @classmethod
     def from_mapping(cls, mapping: Mapping[str, Any], prefix: str = "") -> Self:
@@ -193,8 +193,8 @@ class TrackerConfig(Parameters):
             if group is not None:
                 values[name] = group.from_mapping(_section(name, value), f"{name}.")
             elif name in METHODS:
-                config = METHODS[name].Config
-                methods[name] = config.from_mapping(_section(name, value), f"{name}.")
+                group = method_parameters(name)
+                methods[name] = group.from_mapping(_section(name, value), f"{name}.")
             elif name in ("method", "gravity"):
                 values[name] = value
             else:
@@ -212,7 +212,7 @@ class TrackerConfig(Parameters):
             return getattr(self, key)
         if group in GROUPS:
             return getattr(getattr(self, group), key)
-        return getattr(self.methods.get(group, METHODS[group].Config()), key)
+        return getattr(self.methods.get(group, method_parameters(group)()), key)
 
 
 def all_specs() -> Iterator[ParameterSpec]:
@@ -221,8 +221,14 @@ def all_specs() -> Iterator[ParameterSpec]:
     for item in fields(TrackerConfig):
         if item.name in GROUPS:
             yield from GROUPS[item.name].specs(f"{item.name}.")
-    for name, method in METHODS.items():
-        yield from method.Config.specs(f"{name}.")
+    for name in METHODS:
+        yield from method_parameters(name).specs(f"{name}.")
+
+
+def method_parameters(name: str) -> type[Parameters]:
+    """Return the parameter class of a method."""
+    found: type[Parameters] = METHODS[name].Config
+    return found
 
 
 def nested(mapping: Mapping[str, Any]) -> dict[str, Any]:

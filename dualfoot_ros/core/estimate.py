@@ -6,8 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from .kernel import Engine
 from .kernel import layout as at
 from .series import FloatArray
@@ -106,8 +104,3 @@ def relative_row(direction: Sequence[float]) -> dict[int, float]:
     row = {i: float(direction[i]) for i in range(3)}
     row.update({15 + i: -float(direction[i]) for i in range(3)})
     return row
-
-
-def column(values: Sequence[float]) -> FloatArray:
-    """Return ``values`` as a float array."""
-    return np.array(values, dtype=np.float64)

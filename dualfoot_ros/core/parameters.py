@@ -138,6 +138,4 @@ def _number(value: Any) -> Any:
 
 def _refusal(spec: ParameterSpec, value: Any, prefix: str) -> ConfigError:
     shown = list(value) if isinstance(value, tuple) else value
-    return ConfigError(
-        f"parameter '{prefix}{spec.name}' is {shown!r}; allowed is {spec.allowed}"
-    )
+    return ConfigError(f"parameter '{prefix}{spec.name}' is {shown!r}; allowed is {spec.allowed}")

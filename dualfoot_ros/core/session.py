@@ -89,12 +89,19 @@ class Session:
         return self._row[0].copy(), found
 
     def steps(
-        self, stamps: IntArray, values: FloatArray, start: int, stop: int, out: FloatArray
+        self,
+        stamps: IntArray,
+        dts: FloatArray,
+        values: FloatArray,
+        span: tuple[int, int],
+        out: FloatArray,
     ) -> Iterator[tuple[int, Found]]:
-        """Run epochs ``start..stop-1`` into ``out``; yield the rows that brought events."""
-        space, k = self.space, start
-        dts = np.diff(stamps[start - 1 : stop]) * 1e-9
-        dts = np.concatenate([np.zeros(start), dts])
+        """Run the epochs of ``span`` [start, stop) into ``out``; yield rows that brought events.
+
+        ``dts`` (N,) s are the intervals that end at each sample.
+        """
+        space = self.space
+        k, stop = span
         while k < stop:
             first = space.epoch + 1
             done = self._engine.advance(space.w, space.n, dts, values, k, stop, out)
@@ -233,9 +240,7 @@ class Session:
         """Whether both feet know their heading."""
         return self._strides[0] is None and self._strides[1] is None
 
-    def _turn_to_first_strides(
-        self, foot: int, direction: float, strides: FirstStrides
-    ) -> Event:
+    def _turn_to_first_strides(self, foot: int, direction: float, strides: FirstStrides) -> Event:
         return self._turn(foot, self._forward - direction, strides.pivot, np.zeros(3))
 
     def _turn(self, foot: int, yaw: float, pivot: FloatArray, shift: FloatArray) -> Event:
@@ -245,7 +250,11 @@ class Session:
             self._engine.turn(space.w, start, foot, c, s, pivot, shift)
         self._offsets[foot] = self._sensor_yaw(foot) - self._forward
         now = self._stamp(space.epoch)
-        detail = {"yaw": yaw, "pivot": (pivot[0], pivot[1], 0.0), "shift": tuple(shift)}
+        detail = {
+            "yaw": yaw,
+            "pivot": (float(pivot[0]), float(pivot[1]), 0.0),
+            "shift": tuple(float(v) for v in shift),
+        }
         return Event(EventKind.HEADING, now, FEET[foot], now, detail=detail)
 
     def _sensor_yaw(self, foot: int) -> float:

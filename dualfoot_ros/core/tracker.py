@@ -63,7 +63,7 @@ class DualFootTracker:
 
     @property
     def phase(self) -> str:
-        """"aligning", "standing" (aligned, still refining) or "walking"."""
+        """ "aligning", "standing" (aligned, still refining) or "walking"."""
         return self._session.phase if self._session else "aligning"
 
     @property
@@ -210,6 +210,7 @@ class DualFootTracker:
         count = len(stamps)
         out = np.zeros((count, at.OUT))
         kept = np.zeros(count, dtype=bool)
+        dts = np.diff(stamps, prepend=stamps[:1]) * 1e-9
         stops = next_irregular(regular_samples(stamps, values))
         events: list[Event] = []
         k = 0
@@ -217,7 +218,7 @@ class DualFootTracker:
             session = self._session
             stop = int(stops[k])
             if session is not None and session.phase == "walking" and stop > k and not self._pose:
-                for row, found in session.steps(stamps, values, k, stop, out):
+                for row, found in session.steps(stamps, dts, values, (k, stop), out):
                     _note(out, row, found, events)
                 kept[k:stop] = True
                 self.counters["pairs"] += stop - k
@@ -244,11 +245,18 @@ def _note(out: FloatArray, row: int, found: Sequence[Event], events: list[Event]
 
 
 def regular_samples(stamps: IntArray, values: FloatArray) -> np.ndarray:
-    """Return (N,) bool: samples that `add` would take without a remark, whatever came before."""
-    good = (np.abs(values) < LIMIT).all(axis=1)
-    steps = np.diff(stamps, prepend=stamps[:1])
-    regular = good & (steps > 0) & (steps <= MAX_GAP_NS)
-    regular[1:] &= good[:-1] & ((steps[:-1] > 0) | (np.arange(len(stamps) - 1) == 0))
+    """Return (N,) bool: samples that `add` would take without a remark, as it did the one before.
+
+    A sample counts as taken when it is later than every good sample before it.  (After time has
+    jumped back that is never so, and the samples go one by one.)
+    """
+    count = len(stamps)
+    good: np.ndarray = np.all(np.abs(values) < LIMIT, axis=1)
+    latest = np.maximum.accumulate(np.where(good, stamps, np.iinfo(np.int64).min))
+    taken = good.copy()
+    taken[1:] &= stamps[1:] > latest[:-1]
+    regular = np.zeros(count, dtype=bool)
+    regular[1:] = taken[1:] & taken[:-1] & (np.diff(stamps) <= MAX_GAP_NS)
     return regular
 
 
@@ -256,4 +264,5 @@ def next_irregular(regular: np.ndarray) -> IntArray:
     """Return (N,) the index of the first irregular sample at or after each (N if none)."""
     count = len(regular)
     index = np.where(regular, count, np.arange(count))
-    return np.minimum.accumulate(index[::-1])[::-1]
+    stops: IntArray = np.minimum.accumulate(index[::-1])[::-1]
+    return stops

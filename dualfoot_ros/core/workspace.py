@@ -89,7 +89,7 @@ class Workspace:
         for foot, still in enumerate(stills):
             o = foot * at.FOOT
             aside = config.initial.spacing * (0.5 - foot)
-            w[o + at.POS : o + at.POS + 3] = origin + (-s * aside, c * aside, 0.0)
+            w[o + at.POS : o + at.POS + 3] = origin + np.array([-s * aside, c * aside, 0.0])
             rotation = still.levelling()
             w[o + at.ROT : o + at.ROT + 9] = rotation.ravel()
             w[o + at.BG : o + at.BG + 3] = still.angular_rate

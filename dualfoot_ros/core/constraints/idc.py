@@ -23,7 +23,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..estimate import JointEstimate, Outcome, column, relative_row
+import numpy as np
+
+from ..estimate import JointEstimate, Outcome, relative_row
 from ..parameters import Parameters, parameter
 from .method import Gait, Request, StancePhase
 
@@ -39,17 +41,22 @@ class Config(Parameters):
         0.15, "minimum distance c0 of the two sensors", unit="m", minimum=0.01, maximum=1.0
     )
     distance_std: float = parameter(
-        0.1, "scatter of that distance (0: the paper's hard constraint)", unit="m",
-        minimum=0.0, maximum=1.0,
+        0.1,
+        "scatter of that distance (0: the paper's hard constraint)",
+        unit="m",
+        minimum=0.0,
+        maximum=1.0,
     )
     kappa: float = parameter(
         0.55, "minimum-distance moment as a share of the stance", minimum=0.0, maximum=1.0
     )
-    solver: str = parameter("exact", "the minimiser or the paper's iteration",
-                            choices=("exact", "iterative"))
+    solver: str = parameter(
+        "exact", "the minimiser or the paper's iteration", choices=("exact", "iterative")
+    )
     iterations: int = parameter(5, "iterations of the iterative solver", minimum=1, maximum=50)
     apply_at: str = parameter(
-        "moment", "at the moment itself (roll back, apply, re-run) or when it is detected",
+        "moment",
+        "at the moment itself (roll back, apply, re-run) or when it is detected",
         choices=("moment", "detection"),
     )
     max_stance: float = parameter(
@@ -90,7 +97,7 @@ class Method:
         variance = quadratic(r, p) / distance**2 if distance > 0.0 else 0.0
         s = variance + config.distance_std**2
         error = distance - config.distance
-        measured = (column([error]), column([[s]]), error * error / s if s > 0.0 else math.nan)
+        measured = (np.array([error]), np.array([[s]]), error * error / s if s > 0.0 else math.nan)
         detail = {"distance": distance, "target": config.distance}
         if error <= 0.0 or variance <= 1e-12:
             reason = "distance within c0" if error <= 0.0 else "no uncertainty"
@@ -101,9 +108,7 @@ class Method:
         after = norm(estimate.relative_position())
         return Outcome(*measured, detail={**detail, "distance_after": after})
 
-    def _iterate(
-        self, r: Vector, p: Matrix, c0: float, std: float
-    ) -> tuple[Vector, float, float]:
+    def _iterate(self, r: Vector, p: Matrix, c0: float, std: float) -> tuple[Vector, float, float]:
         return iterate(r, p, c0, std, self._config.iterations)
 
 

@@ -68,7 +68,6 @@ def compiled() -> Engine:
     """
     import numba
     from numba import boolean, float64, int64, void
-    from numba.core import config as numba_config
 
     w, n = float64[::1], int64[::1]
     rows = float64[:, ::1]
@@ -83,14 +82,15 @@ def compiled() -> Engine:
         "turn": void(w, int64, int64, float64, float64, w, w),
     }
     directory = cache_directory()
-    before, numba_config.CACHE_DIR = numba_config.CACHE_DIR, str(directory)
+    settings: Any = numba.config
+    before, settings.CACHE_DIR = settings.CACHE_DIR, str(directory)
     try:
         built = _dispatchers(numba.njit)
         for name, signature in signatures.items():
             built[name].compile(signature)
             built[name].disable_compile()
     finally:
-        numba_config.CACHE_DIR = before
+        settings.CACHE_DIR = before
     (directory / "ready").touch()
     return Engine("compiled", **{name: built[name] for name in ENTRIES})
 

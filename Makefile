@@ -1,0 +1,59 @@
+# Everything a newcomer needs, each target in the same virtual environment.
+#
+#   make PYTHON=python3.12 demo     to choose the interpreter (3.11 or 3.12)
+
+VENV := .venv
+BIN := $(VENV)/bin
+BAG := bags/demo
+OUTPUT := demo_output
+WORKERS := 2
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test pytest lint format types config bags bench clean
+
+help: ## show the targets
+	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sort | sed -E 's/^([a-z]+):.*## /\1|/' \
+		| awk -F'|' '{ printf "  make %-8s %s\n", $$1, $$2 }'
+
+# The stamp makes reruns quick; delete .venv (make clean) to start afresh.
+$(VENV)/.installed: setup.py scripts/make_venv
+	@scripts/make_venv $(VENV)
+	@touch $@
+
+$(VENV)/.kernel: $(VENV)/.installed $(wildcard dualfoot_ros/core/kernel/*.py)
+	@echo "compiling the kernel (once, up to half a minute)"
+	@$(BIN)/python -m dualfoot_ros.core.kernel
+	@touch $@
+
+demo: $(VENV)/.kernel ## replay bags/demo through the real nodes and compare with the truth
+	@$(BIN)/python -m dualfoot_ros.nodes.demo $(BAG) -o $(OUTPUT)
+
+test: lint types pytest ## run ruff, mypy and every test
+
+pytest: $(VENV)/.kernel ## run the tests only
+	@$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile
+
+lint: $(VENV)/.installed ## check style and format with ruff
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+
+types: $(VENV)/.installed ## check the types with mypy
+	@$(BIN)/mypy
+
+format: $(VENV)/.installed ## format the code with ruff
+	@$(BIN)/ruff check --fix --select I .
+	@$(BIN)/ruff format .
+
+config: $(VENV)/.installed ## write config/default.yaml from the declared parameters
+	@$(BIN)/python scripts/write_config.py
+
+bags: $(VENV)/.kernel ## regenerate the recordings in bags/
+	@$(BIN)/python scripts/make_bags.py
+
+bench: $(VENV)/.kernel ## print the cost of an epoch, compiled and interpreted
+	@$(BIN)/python -m benchmark
+
+clean: ## remove the environment, caches and everything that was built
+	@rm -rf $(VENV) build install log dist $(OUTPUT) *.egg-info
+	@rm -rf .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	@find . -name __pycache__ -type d -prune -exec rm -rf {} +

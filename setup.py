@@ -1,0 +1,51 @@
+"""Packaging of dualfoot_ros, for ``colcon build`` and for ``pip install`` alike."""
+
+from glob import glob
+
+from setuptools import find_packages, setup
+
+NAME = "dualfoot_ros"
+NODES = ["bringup", "fusion", "imu_adapter", "replay", "time_sync"]
+
+# A stock ROS 2 installation brings rclpy and the messages itself; only the extra `ros` asks for
+# the wheels.  The presets travel twice: in the ament share, and as package data for `pip`.
+setup(
+    name=NAME,
+    version="0.1.0",
+    description="Dual-foot pedestrian inertial navigation for ROS 2",
+    license="Apache-2.0",
+    maintainer="dualfoot_ros maintainers",
+    maintainer_email="maintainers@dualfoot.invalid",
+    python_requires=">=3.11",
+    packages=[*find_packages(include=[NAME, f"{NAME}.*"]), f"{NAME}.config"],
+    package_dir={f"{NAME}.config": "config"},
+    package_data={f"{NAME}.config": ["*.yaml"], NAME: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
+        (f"share/{NAME}", ["package.xml"]),
+        (f"share/{NAME}/config", sorted(glob("config/*.yaml"))),
+        (f"share/{NAME}/launch", sorted(glob("launch/*.launch.py"))),
+    ],
+    zip_safe=False,
+    install_requires=[
+        "matplotlib>=3.6",
+        "numba>=0.58",
+        "numpy>=1.26",
+        "pyserial>=3.5",
+        "PyYAML>=6.0",
+        "rich>=13.0",
+        "rosbags>=0.10.10",
+        "scipy>=1.11",
+    ],
+    extras_require={
+        "test": ["pytest", "hypothesis"],
+        "dev": ["mypy", "pytest-xdist", "ruff", "types-PyYAML"],
+        "ros": ["ros-jazzy-common-interfaces", "ros-jazzy-rclpy[fastrtps]"],
+    },
+    entry_points={
+        "console_scripts": [
+            "dualfoot = dualfoot_ros.cli.main:main",
+            *(f"{node} = dualfoot_ros.nodes.{node}:main" for node in NODES),
+        ],
+    },
+)

@@ -1,0 +1,27 @@
+"""A walk generator with exact analytic truth, for tests, demonstrations and sweeps."""
+
+from .clocks import ClockConfig
+from .config import MOUNTS, Gait, WalkConfig
+from .errors import SimulationError
+from .routes import ROUTES, Route, route
+from .sensors import GRADES, SensorConfig, grade
+from .walk import Simulation, Walk, rigid_pair, simulate, walk
+
+__all__ = [
+    "GRADES",
+    "MOUNTS",
+    "ROUTES",
+    "ClockConfig",
+    "Gait",
+    "Route",
+    "SensorConfig",
+    "Simulation",
+    "SimulationError",
+    "Walk",
+    "WalkConfig",
+    "grade",
+    "rigid_pair",
+    "route",
+    "simulate",
+    "walk",
+]

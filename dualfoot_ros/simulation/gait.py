@@ -1,0 +1,85 @@
+"""The shape of one swing, over its phase q from heel-off (0) to flat foot (1).
+
+The shapes were drawn by eye after the angular rates of real walks with sensors on the instep: slow
+heel rise, push-off at 8-9 rad/s, swing back at 6-7 rad/s, slap of the sole after heel strike.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from ..core.series import FloatArray
+from .footprints import HEEL_STRIKE, TOE_OFF
+
+FOOT_LENGTH_M = 0.17  # from the heel's edge to the ball
+
+_KEYS = {
+    # nose-down pitch, rad
+    "pitch": (
+        (0.0, 0.08, 0.16, 0.22, TOE_OFF, 0.33, 0.37, 0.42, 0.55, 0.70, HEEL_STRIKE, 0.86, 0.92, 1),
+        (0.0, 0.03, 0.13, 0.35, 0.68, 1.02, 1.08, 0.96, 0.34, -0.22, -0.40, -0.27, -0.06, 0),
+    ),
+    # outward lean, rad
+    "roll": (
+        (0.0, 0.12, TOE_OFF, 0.36, 0.50, 0.66, HEEL_STRIKE, 0.88, 0.95, 1.0),
+        (0.0, 0.02, -0.06, 0.10, -0.03, 0.06, 0.16, 0.08, 0.01, 0.0),
+    ),
+    # outward turn, rad
+    "yaw": (
+        (0.0, 0.12, TOE_OFF, 0.38, 0.55, 0.70, HEEL_STRIKE, 0.90, 1.0),
+        (0.0, 0.01, 0.12, 0.22, 0.02, -0.08, 0.03, 0.02, 0.0),
+    ),
+    # share of the turn to the next footprint; a tenth is done pivoting on the ball
+    "turn": (
+        (0.0, 0.10, TOE_OFF, 0.53, HEEL_STRIKE, 1.0),
+        (0.0, 0.01, 0.10, 0.55, 0.97, 1.0),
+    ),
+    # lift of the ball, relative
+    "lift": (
+        (0.0, TOE_OFF, 0.38, 0.55, 0.70, HEEL_STRIKE, 1.0),
+        (0.0, 0.0, 1.0, 0.7, 0.8, 0.0, 0.0),
+    ),
+}
+
+
+@cache
+def _template(name: str) -> PchipInterpolator:
+    phase, value = _KEYS[name]
+    return PchipInterpolator(phase, value)
+
+
+def shape(name: str, phase: FloatArray) -> FloatArray:
+    """Return a template (pitch, roll, yaw, turn or lift) at ``phase`` (N,) in [0, 1]."""
+    return _template(name)(phase)
+
+
+def advance(phase: FloatArray, skew: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the share of the way the ball has gone, and a bump that is 1 half-way.
+
+    ``skew`` in (-0.2, 0.2) lets the foot pass the half earlier (positive) or later.
+    """
+    u = np.clip((phase - TOE_OFF) / (HEEL_STRIKE - TOE_OFF), 0.0, 1.0)
+    u = u + 4.0 * skew * u * (1.0 - u)
+    return u * u * (3.0 - 2.0 * u), 16.0 * u * u * (1.0 - u) ** 2
+
+
+def climb(phase: FloatArray, rise: FloatArray) -> FloatArray:
+    """Return the share of ``rise`` done: early on the way up, late on the way down."""
+    u = (phase - TOE_OFF) / (HEEL_STRIKE - TOE_OFF)
+    low = np.where(rise > 0, 0.0, 0.45)
+    u = np.clip((u - low) / 0.55, 0.0, 1.0)
+    return u * u * (3.0 - 2.0 * u)
+
+
+def sole_height(pitch: FloatArray) -> FloatArray:
+    """Return how high the ball is, in m, when the heel touches the floor (nose-up pitch)."""
+    return FOOT_LENGTH_M * np.maximum(0.0, -np.sin(pitch))
+
+
+def ringing(since_strike_s: FloatArray) -> FloatArray:
+    """Return the ringing of the shoe after heel strike, of unit amplitude."""
+    x = np.clip(since_strike_s, 0.0, 0.5)
+    return np.sin(2.0 * np.pi * 25.0 * x) * np.exp(-x / 0.02)

@@ -1,0 +1,224 @@
+"""The motion of one shoe as a quintic B-spline: exact position, velocity, rotation and rates.
+
+The rough motion (footprints, templates, ringing, wobble) is sampled at the control points of a
+uniform quintic B-spline.  What the spline makes of them *is* the truth: four times continuously
+differentiable, exactly at rest where the rough motion rests, every derivative a closed form.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import BSpline
+
+from ..core.series import FloatArray
+from . import gait
+from .config import WalkConfig, rotation_zyx
+from .footprints import HEEL_STRIKE, Footprints
+from .noise import smooth_noise, smooth_rate_noise
+from .routes import Route
+
+KNOT_S = 0.01
+MARGIN_S = 0.5
+
+
+@dataclass(frozen=True)
+class Kinematics:
+    """What a sensor at one place on the shoe goes through; the sensor's frame is the body frame.
+
+    Attributes
+    ----------
+    position : (N, 3) m
+    velocity : (N, 3) m/s
+    rotation : (N, 3, 3) body to navigation
+    specific_force : (N, 3) m/s^2, body frame
+    angular_rate : (N, 3) rad/s, body frame
+    """
+
+    position: FloatArray
+    velocity: FloatArray
+    rotation: FloatArray
+    specific_force: FloatArray
+    angular_rate: FloatArray
+
+
+@dataclass(frozen=True)
+class ShoeMotion:
+    """Ball of the foot (x, y, z, m) and yaw, pitch, roll (rad) of the shoe as one spline."""
+
+    spline: BSpline
+    gravity: float
+
+    def position(self, time_s: FloatArray, lever: FloatArray) -> FloatArray:
+        """Return the (N, 3) position of the point at ``lever`` (3,) m in the shoe."""
+        state = self.spline(time_s)
+        return state[:, :3] + rotation_zyx(*state[:, 3:].T) @ lever
+
+    def kinematics(
+        self, time_s: FloatArray, lever: FloatArray, mounting: FloatArray
+    ) -> Kinematics:
+        """Return the motion of a sensor at ``lever`` (3,), turned by ``mounting`` (3, 3)."""
+        state, first, second = (self.spline(time_s, order) for order in range(3))
+        shoe = rotation_zyx(*state[:, 3:].T)
+        rate, acceleration = body_rates(state[:, 3:], first[:, 3:], second[:, 3:])
+        swirl = np.cross(rate, lever)
+        arm = np.cross(acceleration, lever) + np.cross(rate, swirl)
+        force = second[:, :3] + [0.0, 0.0, self.gravity]
+        return Kinematics(
+            position=state[:, :3] + shoe @ lever,
+            velocity=first[:, :3] + _rotate(shoe, swirl),
+            rotation=shoe @ mounting,
+            specific_force=(_rotate(shoe.transpose(0, 2, 1), force) + arm) @ mounting,
+            angular_rate=rate @ mounting,
+        )
+
+
+def body_rates(
+    angles: FloatArray, first: FloatArray, second: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return body angular rate and acceleration (N, 3) of yaw-pitch-roll angles (N, 3)."""
+    _, pitch, roll = angles.T
+    dy, dp, dr = first.T
+    ddy, ddp, ddr = second.T
+    sp, cp, sr, cr = np.sin(pitch), np.cos(pitch), np.sin(roll), np.cos(roll)
+    rate = np.column_stack([dr - dy * sp, dp * cr + dy * cp * sr, -dp * sr + dy * cp * cr])
+    acceleration = np.column_stack(
+        [
+            ddr - ddy * sp - dy * dp * cp,
+            ddp * cr - dp * dr * sr + ddy * cp * sr - dy * dp * sp * sr + dy * dr * cp * cr,
+            -ddp * sr - dp * dr * cr + ddy * cp * cr - dy * dp * sp * cr - dy * dr * cp * sr,
+        ]
+    )
+    return rate, acceleration
+
+
+def _rotate(rotation: FloatArray, vector: FloatArray) -> FloatArray:
+    return np.einsum("nij,nj->ni", rotation, vector)
+
+
+class Walker:
+    """Makes the motion of one shoe from its footprints; step-wise tunable.
+
+    ``skew`` and ``bulge`` (one a landing of the foot) let the swinging foot pass its neighbour
+    earlier or later, and farther out (m).
+    """
+
+    def __init__(
+        self,
+        config: WalkConfig,
+        route: Route,
+        prints: Footprints,
+        side: int,
+        rng: np.random.Generator,
+    ) -> None:
+        self.config = config
+        self.route = route
+        self.side = side
+        self.rows = prints.rows_of(side)
+        self.prints = prints
+        count = len(self.rows)
+        self.skew = np.zeros(count)
+        self.bulge = np.zeros(count)
+        self.scatter = np.clip(rng.standard_normal((count, 8)), -2.5, 2.5)
+        self.knots, self.time_s = _knots(prints.end_s)
+        self._rest = self._restless(rng)
+        self._phase()
+
+    def motion(self) -> ShoeMotion:
+        """Return the motion with the present ``skew`` and ``bulge``."""
+        spline = BSpline(self.knots, self._control_points(), 5)
+        return ShoeMotion(spline, self.config.gravity)
+
+    def _phase(self) -> None:
+        """Find, for every control point, the landing it belongs to and the phase of its swing."""
+        prints, rows = self.prints, self.rows
+        flat, heel_off = prints.flat_s[rows], prints.heel_off_s[rows]
+        now = np.searchsorted(heel_off[1:], self.time_s, side="right")
+        self.now, self.before = now, np.maximum(now - 1, 0)
+        window = np.where(now > 0, flat[now] - heel_off[now], 1.0)
+        moving = (self.time_s - heel_off[now]) / window
+        self.q = np.where(now > 0, np.clip(moving, 0.0, 1.0), 1.0)
+        strike = heel_off[now] + HEEL_STRIKE * window
+        self.since_strike = np.where(now > 0, self.time_s - strike, 1.0)
+        self.since_flat = np.where(now > 0, self.time_s - flat[now], 1e3)
+        self.scale = self._scale()
+
+    def _scale(self) -> FloatArray:
+        """Return (K,) how large each swing is: 1 for a full stride, less on stairs."""
+        progress = self.prints.progress[self.rows]
+        stride = np.diff(progress, prepend=progress[0]) / (2.0 * self.config.step_length)
+        scale = np.clip(stride, 0.3, 1.15)
+        return np.where(self.prints.stair[self.rows], 0.7, scale)
+
+    def _control_points(self) -> FloatArray:
+        prints, rows, now, before, q = self.prints, self.rows, self.now, self.before, self.q
+        progress, lateral = prints.progress[rows], prints.lateral[rows]
+        share, bump = gait.advance(q, self.skew[now])
+        along = progress[before] + (progress[now] - progress[before]) * share
+        across = lateral[before] + (lateral[now] - lateral[before]) * share
+        across = across + self.side * self.bulge[now] * bump
+        yaw, pitch, roll = self._angles(progress).T
+        sole = gait.sole_height(pitch) * (q < 1.0)
+        along = along - gait.FOOT_LENGTH_M * (1.0 - np.cos(np.minimum(pitch, 0.0))) * (q < 1.0)
+        ring = self._ring()
+        ground = self.route.point(along + ring[:, 0], across + ring[:, 1])
+        height = self._height() + sole + ring[:, 2]
+        return np.column_stack([ground, height, yaw, pitch, roll])
+
+    def _angles(self, progress: FloatArray) -> FloatArray:
+        """Return (N, 3) yaw, pitch, roll of the shoe in rad."""
+        config, now, q = self.config.gait, self.now, self.q
+        scatter = 1.0 + config.shape_std * self.scatter[now]
+        size = self.scale[now]
+        turn = gait.shape("turn", q)
+        looked = progress[self.before] + (progress[now] - progress[self.before]) * turn
+        yaw = gait.shape("yaw", q) * scatter[:, 0] * size
+        roll = -gait.shape("roll", q) * (1.0 + 3.0 * (scatter[:, 1] - 1.0)) * size
+        pitch = gait.shape("pitch", q) * scatter[:, 2] * size + self._roll_over()
+        heading = self.route.heading(looked) + self.side * (config.toe_out + yaw)
+        return np.column_stack([heading, pitch, self.side * roll]) + self._rest
+
+    def _roll_over(self) -> FloatArray:
+        """Return the slow forward rotation of the stance, taken back during the swing."""
+        gait_, cycle = self.config.gait, self.config.cycle_s
+        stance = np.clip(self.since_flat / (gait_.stance_share * cycle), 0.0, 1.0)
+        return gait_.roll_over * np.where(self.q < 1.0, 0.5 - self.q, stance - 0.5)
+
+    def _height(self) -> FloatArray:
+        floor = self.prints.floor[self.rows]
+        rise = (floor[self.now] - floor[self.before]) * (self.now > 0)
+        lift = gait.shape("lift", self.q) * self.config.gait.clearance
+        lift = lift * (1.0 + 3.0 * self.config.gait.shape_std * self.scatter[self.now, 3])
+        lift = lift + 0.08 * gait.shape("lift", self.q) * (np.abs(rise) > 0.05)
+        return floor[self.now] - rise * (1.0 - gait.climb(self.q, rise)) + lift
+
+    def _ring(self) -> FloatArray:
+        """Return (N, 3) m: the ringing after heel strike along, across and up."""
+        scatter = self.scatter[self.now]
+        size = np.array([-0.8, 0.3, 1.0]) + 0.35 * scatter[:, 4:7]
+        wave = gait.ringing(self.since_strike) * self.config.gait.impact * self.scale[self.now]
+        return size * wave[:, None]
+
+    def _restless(self, rng: np.random.Generator) -> FloatArray:
+        """Return (N, 3) rad: wobble of the walking foot, tremor and sway of the standing one."""
+        config, time_s = self.config.gait, self.time_s
+        wobble = smooth_rate_noise(time_s, 0.12, rng) * config.wobble
+        tremor = smooth_rate_noise(time_s, 0.06, rng) * config.tremor
+        sway = smooth_noise(time_s, 2.0, rng) * config.sway
+        return wobble * self._activity()[:, None] + tremor + sway
+
+    def _activity(self) -> FloatArray:
+        """Return (N,) 1 while the walker walks, 0 while the feet stand together, with ramps."""
+        start, end = self.prints.heel_off_s[2:], self.prints.flat_s[2:]
+        begun = np.searchsorted(start, self.time_s, side="right")
+        landed = np.append(-np.inf, np.maximum.accumulate(end))[begun]
+        ramp = round(0.3 / KNOT_S)
+        return np.convolve(self.time_s < landed, np.full(ramp, 1.0 / ramp), mode="same")
+
+
+def _knots(end_s: float) -> tuple[FloatArray, FloatArray]:
+    """Return the knots, and the abscissae of the control points (Greville), both in s."""
+    count = int(np.ceil((end_s + 2.0 * MARGIN_S) / KNOT_S)) + 6
+    knots = -MARGIN_S + KNOT_S * (np.arange(count + 6) - 3.0)
+    return knots, knots[3 : count + 3]

@@ -1,0 +1,34 @@
+"""Smooth random motion: what a walker adds to each step and to a stand."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.interpolate import BSpline
+
+from ..core.series import FloatArray
+
+
+def smooth_noise(time_s: FloatArray, spacing_s: float, rng: np.random.Generator) -> FloatArray:
+    """Return (N, 3) smooth noise of unit variance whose values decorrelate over ``spacing_s``."""
+    start = time_s[0] - 4.0 * spacing_s
+    count = int(np.ceil((time_s[-1] - start) / spacing_s)) + 8
+    knots = start + spacing_s * np.arange(count + 4)
+    spline = BSpline(knots, rng.standard_normal((count, 3)), 3)
+    return spline(time_s) / np.sqrt(_BSPLINE_VARIANCE)
+
+
+def smooth_rate_noise(
+    time_s: FloatArray, spacing_s: float, rng: np.random.Generator
+) -> FloatArray:
+    """Return (N, 3) smooth noise whose derivative has unit variance."""
+    return (
+        smooth_noise(time_s, spacing_s, rng)
+        * spacing_s
+        * np.sqrt(_BSPLINE_VARIANCE / _BSPLINE_RATE_VARIANCE)
+    )
+
+
+# Mean variance of a cubic B-spline with white unit coefficients, and of its derivative per knot
+# spacing: the integrals of B^2 and B'^2 over the cardinal spline (151/315 and 2/3).
+_BSPLINE_VARIANCE = 151.0 / 315.0
+_BSPLINE_RATE_VARIANCE = 2.0 / 3.0

@@ -1,0 +1,121 @@
+"""The moments at which one foot passes the other: found on the motion, and brought where wanted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.series import FloatArray
+from .config import WalkConfig
+from .footprints import Footprints
+from .motion import ShoeMotion, Walker
+from .routes import Route
+
+ROUNDS = 4
+
+
+@dataclass(frozen=True)
+class Passes:
+    """Moments of least distance between the two sensors, one a step that passes the other foot.
+
+    Attributes
+    ----------
+    time_s : (M,) s
+    distance : (M,) m, least distance of the two sensors
+    kappa : (M,) moment within the stance of the standing foot, eq. (30) of Liu et al. 2023
+    standing_side : (M,) +1 where the left foot stands, -1 where the right one does
+    """
+
+    time_s: FloatArray
+    distance: FloatArray
+    kappa: FloatArray
+    standing_side: FloatArray
+
+
+@dataclass(frozen=True)
+class PassPlan:
+    """Steps that pass a standing foot, and when and how closely they are wanted to.
+
+    ``row`` (M,) is the landing, ``start`` and ``end`` (M,) s bound the stance of the other foot,
+    ``time_s`` (M,) and ``distance`` (M,) m are wanted.
+    """
+
+    row: np.ndarray
+    start: FloatArray
+    end: FloatArray
+    time_s: FloatArray
+    distance: FloatArray
+
+
+def pass_plan(
+    config: WalkConfig, route: Route, prints: Footprints, rng: np.random.Generator
+) -> PassPlan:
+    """Draw moment and distance of every pass."""
+    gait = config.gait
+    row = np.flatnonzero(prints.passes)
+    start, end = prints.flat_s[row - 1], prints.heel_off_s[row + 1]
+    scatter = np.clip(rng.standard_normal((2, len(row))), -2.5, 2.5)
+    kappa = gait.kappa + gait.kappa_std * scatter[0]
+    turn = np.abs(route.heading(prints.progress[row]) - route.heading(prints.progress[row - 1]))
+    distance = config.min_distance + gait.min_distance_std * scatter[1]
+    return PassPlan(
+        row, start, end, start + kappa * (end - start), distance + gait.turn_widening * turn
+    )
+
+
+def tune(walkers: tuple[Walker, Walker], prints: Footprints, wanted: PassPlan) -> None:
+    """Adjust skew and bulge of every swing until the passes come when and as close as wanted."""
+    if len(wanted.row) == 0:
+        return
+    lever = walkers[0].config.mount.lever_of
+    swing = 0.53 * (prints.flat_s[wanted.row] - prints.heel_off_s[wanted.row])
+    for _ in range(ROUNDS):
+        motions = (walkers[0].motion(), walkers[1].motion())
+        near = np.maximum(wanted.time_s - 0.12, wanted.start), wanted.time_s + 0.12
+        time_s, distance = least(motions, lever(1), lever(-1), *near)
+        for walker in walkers:
+            mine = prints.side[wanted.row] == walker.side
+            at = np.searchsorted(walker.rows, wanted.row[mine])
+            late = ((time_s - wanted.time_s) / swing)[mine]
+            near_by = (wanted.distance - distance)[mine]
+            walker.skew[at] = np.clip(walker.skew[at] + late, -0.15, 0.15)
+            walker.bulge[at] = np.clip(walker.bulge[at] + near_by, -0.08, 0.12)
+
+
+def least(
+    motions: tuple[ShoeMotion, ShoeMotion],
+    left_lever: FloatArray,
+    right_lever: FloatArray,
+    start: FloatArray,
+    end: FloatArray,
+    count: int = 49,
+) -> tuple[FloatArray, FloatArray]:
+    """Return when (M,) s and how closely (M,) m the sensors pass between ``start`` and ``end``.
+
+    The least of ``count`` moments is refined by the parabola through it and its neighbours.
+    """
+    grid = start[:, None] + (end - start)[:, None] * np.linspace(0.0, 1.0, count)
+    apart = motions[0].position(grid.ravel(), left_lever)
+    apart -= motions[1].position(grid.ravel(), right_lever)
+    squared = np.einsum("ni,ni->n", apart, apart).reshape(grid.shape)
+    row = np.arange(len(grid))
+    at = np.clip(np.argmin(squared, axis=1), 1, count - 2)
+    low, mid, high = squared[row, at - 1], squared[row, at], squared[row, at + 1]
+    bend = np.maximum(low - 2.0 * mid + high, 1e-12)
+    shift = np.clip(0.5 * (low - high) / bend, -1.0, 1.0)
+    moment = grid[row, at] + shift * (grid[:, 1] - grid[:, 0])
+    best = mid - 0.25 * (low - high) * shift
+    return moment, np.sqrt(np.maximum(best, 0.0))
+
+
+def passes(
+    motions: tuple[ShoeMotion, ShoeMotion], config: WalkConfig, prints: Footprints, plan: PassPlan
+) -> Passes:
+    """Return the passes as they truly are: the least distance within each stance."""
+    if len(plan.row) == 0:
+        return Passes(*(np.empty(0) for _ in range(4)))
+    lever = config.mount.lever_of
+    time_s, distance = least(motions, lever(1), lever(-1), plan.start, plan.end, 161)
+    kappa = (time_s - plan.start) / (plan.end - plan.start)
+    return Passes(time_s, distance, kappa, -prints.side[plan.row])

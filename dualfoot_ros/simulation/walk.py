@@ -1,0 +1,211 @@
+"""Simulate a walk with a sensor on each foot, and keep the exact truth beside it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ..core.series import FloatArray, ImuSeries, IntArray, PoseSeries
+from .clocks import ClockConfig, Sampling, sample_times
+from .config import WalkConfig
+from .footprints import Footprints, plan
+from .motion import ShoeMotion, Walker
+from .passing import Passes, pass_plan, passes, tune
+from .routes import Route, route
+from .sampling import interval_means
+from .sensors import SensorConfig, SensorErrors, draw_pair, measure
+
+START_NS = 1_750_000_000_000_000_000
+SIDES = (1, -1)
+
+
+@dataclass(frozen=True)
+class Walk:
+    """The motion of both shoes, before any sensor looks at it.
+
+    ``levers`` (two of (3,) m) and ``mountings`` (two of (3, 3), sensor to shoe) say where the left
+    and the right sensor sit; ``shoes`` are the shoes they sit on.
+    """
+
+    config: WalkConfig
+    route: Route
+    footprints: Footprints
+    shoes: tuple[ShoeMotion, ShoeMotion]
+    levers: tuple[FloatArray, FloatArray]
+    mountings: tuple[FloatArray, FloatArray]
+    passes: Passes
+
+    @property
+    def duration_s(self) -> float:
+        """Length of the walk with its standstills, s."""
+        return self.footprints.end_s
+
+    def means(self, sensor: int, edges_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return true mean specific force and rate (N, 3) of sensor 0 (left) or 1 (right)."""
+        place = self.levers[sensor], self.mountings[sensor]
+        return interval_means(self.shoes[sensor], *place, edges_s)
+
+    def truth(self, sensor: int, time_s: FloatArray, stamp_ns: IntArray) -> PoseSeries:
+        """Return the exact poses and velocities of a sensor at ``time_s`` (N,) s."""
+        place = self.levers[sensor], self.mountings[sensor]
+        moved = self.shoes[sensor].kinematics(time_s, *place)
+        turned = Rotation.from_matrix(moved.rotation).as_quat()
+        return PoseSeries(stamp_ns, moved.position, _continuous(turned), moved.velocity)
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """Two recordings and all that is known about them.
+
+    Attributes
+    ----------
+    left, right : what the sensors put out, stamped by their own clocks, lost samples missing
+    left_truth, right_truth : exact poses of the sensors' body frames (as published: the sensor's
+        own axes, mounting rotation not undone) at every sampling instant, in true time
+    left_arrival_ns, right_arrival_ns : (N,) true time at which each sample reached the host
+    left_stances, right_stances : (M, 2) ns of true time, flat foot to heel-off
+    moment_ns : (M,) true times of least distance, of the passes in ``walk.passes``
+    left_errors, right_errors : what was drawn for the sensors
+    """
+
+    left: ImuSeries
+    right: ImuSeries
+    left_truth: PoseSeries
+    right_truth: PoseSeries
+    left_arrival_ns: IntArray
+    right_arrival_ns: IntArray
+    left_stances: IntArray
+    right_stances: IntArray
+    moment_ns: IntArray
+    left_errors: SensorErrors
+    right_errors: SensorErrors
+    walk: Walk
+
+
+def walk(config: WalkConfig | None = None, seed: int = 0) -> Walk:
+    """Return the motion of both shoes; the same configuration and seed give the same walk.
+
+    Raises
+    ------
+    SimulationError
+        When the route cannot be repeated or has no room for the stops.
+    """
+    config = config or WalkConfig()
+    rngs = _generators(seed)
+    line = route(config.route, config.laps)
+    prints = plan(config, line, rngs["plan"])
+    wanted = pass_plan(config, line, prints, rngs["pass"])
+    walkers = (
+        Walker(config, line, prints, SIDES[0], rngs["left shoe"]),
+        Walker(config, line, prints, SIDES[1], rngs["right shoe"]),
+    )
+    tune(walkers, prints, wanted)
+    shoes = (walkers[0].motion(), walkers[1].motion())
+    found = passes(shoes, config, prints, wanted)
+    mount = config.mount
+    levers = (mount.lever_of(1), mount.lever_of(-1))
+    mountings = (mount.rotation_of(1), mount.rotation_of(-1))
+    return Walk(config, line, prints, shoes, levers, mountings, found)
+
+
+def rigid_pair(walked: Walk, separation: float = 0.014) -> Walk:
+    """Return the walk with both sensors on the right shoe, ``separation`` m apart along it.
+
+    The "left" sensor is the hinder one; both share one mounting rotation (Chen et al. 2022).
+    """
+    shoe, lever, mounting = walked.shoes[1], walked.levers[1], walked.mountings[1]
+    half = np.array([0.5 * separation, 0.0, 0.0])
+    return replace(
+        walked,
+        shoes=(shoe, shoe),
+        levers=(lever - half, lever + half),
+        mountings=(mounting, mounting),
+    )
+
+
+def simulate(
+    walk_config: WalkConfig | Walk | None = None,
+    sensor: SensorConfig | None = None,
+    clock: ClockConfig | tuple[ClockConfig, ClockConfig] | None = None,
+    seed: int = 0,
+) -> Simulation:
+    """Simulate a walk (or sense a given one) and return recordings and truth.
+
+    ``clock`` is one for both devices or one each.  Walk, sensors and clocks draw from streams of
+    their own, so changing one does not change the others.
+
+    Raises
+    ------
+    SimulationError
+        When the walk cannot be made.
+    """
+    walked = walk_config if isinstance(walk_config, Walk) else walk(walk_config, seed)
+    sensor = sensor or SensorConfig()
+    clocks = clock if isinstance(clock, tuple) else (clock or ClockConfig(),) * 2
+    rngs = _generators(seed)
+    errors = draw_pair(sensor, (rngs["left errors"], rngs["right errors"]))
+    recorded = [
+        _record(walked, index, sensor, errors[index], clocks[index], rngs) for index in range(2)
+    ]
+    (left, left_truth, left_arrival), (right, right_truth, right_arrival) = recorded
+    return Simulation(
+        left=left,
+        right=right,
+        left_truth=left_truth,
+        right_truth=right_truth,
+        left_arrival_ns=left_arrival,
+        right_arrival_ns=right_arrival,
+        left_stances=nanoseconds(walked.footprints.stances_of(SIDES[0])),
+        right_stances=nanoseconds(walked.footprints.stances_of(SIDES[1])),
+        moment_ns=nanoseconds(walked.passes.time_s),
+        left_errors=errors[0],
+        right_errors=errors[1],
+        walk=walked,
+    )
+
+
+def nanoseconds(time_s: FloatArray) -> IntArray:
+    """Return true time in ns for seconds since the start of the walk."""
+    return START_NS + np.round(np.asarray(time_s) * 1e9).astype(np.int64)
+
+
+def _record(
+    walked: Walk,
+    index: int,
+    sensor: SensorConfig,
+    errors: SensorErrors,
+    clock: ClockConfig,
+    rngs: dict[str, np.random.Generator],
+) -> tuple[ImuSeries, PoseSeries, IntArray]:
+    """Return what one device recorded, the truth, and when its samples arrived."""
+    foot = ("left", "right")[index]
+    rate = walked.config.rate
+    times: Sampling = sample_times(clock, rate, walked.duration_s, START_NS, rngs[f"{foot} clock"])
+    force, turn = walked.means(index, times.edges_s)
+    ends = times.edges_s[1:]
+    force, turn = measure(sensor, errors, ends, force, turn, rngs[f"{foot} noise"])
+    truth = walked.truth(index, ends, times.true_ns(START_NS))
+    series = ImuSeries(times.stamp_ns, force, turn)
+    return series[times.kept], truth, times.arrival_ns[times.kept]
+
+
+def _generators(seed: int) -> dict[str, np.random.Generator]:
+    """Return one independent generator a purpose; adding a purpose at the end changes no other."""
+    names = (
+        "plan", "pass", "left shoe", "right shoe", "left errors", "right errors",
+        "left noise", "right noise", "left clock", "right clock",
+    )  # fmt: skip
+    children = np.random.SeedSequence(seed).spawn(len(names))
+    return {
+        name: np.random.Generator(np.random.PCG64(child))
+        for name, child in zip(names, children, strict=True)
+    }
+
+
+def _continuous(quaternion: FloatArray) -> FloatArray:
+    """Return the quaternions (N, 4) with signs such that neighbours are close."""
+    turn = np.einsum("ni,ni->n", quaternion[1:], quaternion[:-1])
+    sign = np.cumprod(np.append(1.0, np.where(turn < 0.0, -1.0, 1.0)))
+    return quaternion * sign[:, None]

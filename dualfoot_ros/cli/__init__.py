@@ -1,0 +1,1 @@
+"""The ``dualfoot`` command: one thin file a verb, everything else in the library."""

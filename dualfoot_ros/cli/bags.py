@@ -1,0 +1,33 @@
+"""The arguments by which every verb takes a bag, and the reading of it."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+
+from ..recording import Recording, Topics, read_bag
+from .progress import progress
+
+
+def add_topic_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add ``--left-topic`` and ``--right-topic`` for bags whose topics have other names."""
+    topics = Topics()
+    group = parser.add_argument_group("topics")
+    for foot in ("left", "right"):
+        group.add_argument(
+            f"--{foot}-topic",
+            metavar="TOPIC",
+            default=topics.of(foot).imu,
+            help=f"sensor_msgs/Imu topic of the {foot} foot (default: %(default)s)",
+        )
+
+
+def load_bag(path: str, args: argparse.Namespace) -> Recording:
+    """Read the bag ``path`` with the topics of ``args``, showing progress."""
+    default = Topics()
+    topics = Topics(
+        left=replace(default.left, imu=args.left_topic),
+        right=replace(default.right, imu=args.right_topic),
+    )
+    with progress(f"reading {path}") as update:
+        return read_bag(path, topics=topics, progress=update)

@@ -1,0 +1,133 @@
+"""Entry of the ``dualfoot`` command: find the verb, run it, turn errors into sentences."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+from typing import Protocol, cast
+
+from .. import __version__
+from ..core.errors import DualFootError
+
+VERBS = {
+    "import": "import_",
+    "simulate": "simulate",
+    "info": "info",
+    "evaluate": "evaluate",
+}
+EXIT_BAD_INPUT = 2
+EXIT_INTERRUPTED = 130
+EXIT_BROKEN_PIPE = 141
+
+EXAMPLES = """\
+examples:
+  dualfoot simulate -o walk                 a simulated walk with exact truth, as a bag
+  dualfoot info walk                        what is in the bag, in words
+  dualfoot evaluate walk -o report          both tracks, their errors, plots
+  dualfoot import walk.mat -o walk          a sensor's export, as a bag
+  dualfoot VERB --help                      the options of one verb, with examples
+"""
+
+
+class Verb(Protocol):
+    """What each module ``cli/<verb>.py`` provides."""
+
+    HELP: str
+    EXAMPLES: str
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Declare the arguments of the verb."""
+
+    def run(self, args: argparse.Namespace) -> int:
+        """Do it and return the exit code."""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run ``dualfoot`` with ``argv`` (default: those of the process); return the exit code.
+
+    0 is success, 2 an input or an argument that cannot be used, 130 an interrupt.
+    """
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    if not arguments or arguments[0].startswith("-"):
+        return _without_verb(arguments)
+    name, *rest = arguments
+    if name not in VERBS:
+        return _unknown(name)
+    return _run(name, rest)
+
+
+def load(name: str) -> Verb:
+    """Import the module of the verb ``name``."""
+    return cast(Verb, importlib.import_module(f"{__package__}.{VERBS[name]}"))
+
+
+def parser_of(name: str) -> argparse.ArgumentParser:
+    """Return the argument parser of the verb ``name``."""
+    verb = load(name)
+    parser = argparse.ArgumentParser(
+        prog=f"dualfoot {name}",
+        description=verb.HELP,
+        epilog=verb.EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    verb.add_arguments(parser)
+    return parser
+
+
+def _run(name: str, arguments: list[str]) -> int:
+    args = parser_of(name).parse_args(arguments)
+    try:
+        code = load(name).run(args)
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        print(f"dualfoot {name}: interrupted", file=sys.stderr)
+        return EXIT_INTERRUPTED
+    except BrokenPipeError:
+        # The reader of our output is gone; keep the interpreter from flushing into it again.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return EXIT_BROKEN_PIPE
+    except DualFootError as error:
+        return _refuse(name, str(error))
+    except OSError as error:
+        if error.strerror is None:
+            raise
+        where = f"'{error.filename}': " if error.filename else ""
+        return _refuse(name, f"{where}{error.strerror}")
+    return code
+
+
+def _refuse(name: str, sentence: str) -> int:
+    print(f"dualfoot {name}: error: {sentence}", file=sys.stderr)
+    return EXIT_BAD_INPUT
+
+
+def _without_verb(arguments: list[str]) -> int:
+    parser = argparse.ArgumentParser(
+        prog="dualfoot",
+        usage="dualfoot [--help] [--version] VERB ...",
+        description=_overview(),
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"dualfoot {__version__}")
+    parser.parse_args(arguments)
+    parser.print_help()
+    return 0
+
+
+def _overview() -> str:
+    width = max(map(len, VERBS))
+    lines = [f"  {name:<{width}}  {load(name).HELP}" for name in VERBS]
+    return "\n".join(["Two IMUs, one on each foot, to two trajectories.", "", "verbs:", *lines])
+
+
+def _unknown(name: str) -> int:
+    near = difflib.get_close_matches(name, VERBS, n=1)
+    hint = f"; did you mean '{near[0]}'?" if near else ""
+    verbs = ", ".join(VERBS)
+    print(f"dualfoot: error: unknown verb '{name}'; allowed: {verbs}{hint}", file=sys.stderr)
+    return EXIT_BAD_INPUT

@@ -1,0 +1,82 @@
+"""Many CDR messages of one layout at once: stamps and doubles as arrays, and back.
+
+All messages here are a ``std_msgs/Header`` (and, for odometry, one more string) followed by
+float64 values only.  While the strings keep their length, every message of a topic has the same
+layout, so a topic is one (N, length) array of bytes.  Little-endian plain CDR only: the caller
+decodes anything else message by message.
+"""
+
+from __future__ import annotations
+
+import struct
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.series import FloatArray, IntArray
+
+LITTLE_ENDIAN = b"\x00\x01\x00\x00"
+STAMP = 4  # after the encapsulation
+TEXT = 12  # after seconds and nanoseconds
+
+
+def decode(
+    messages: list[bytes], doubles: int, texts: int = 1
+) -> tuple[IntArray, FloatArray, list[str]] | None:
+    """Return stamps (N,) ns, values (N, doubles) and the strings; None if layouts differ.
+
+    ``texts`` strings follow the stamp, then ``doubles`` float64.
+    """
+    first = messages[0]
+    if first[:4] != LITTLE_ENDIAN or any(len(m) != len(first) for m in messages):
+        return None
+    read = _read_texts(first, texts)
+    if read is None or len(first) < read[2] + 8 * doubles:
+        return None
+    strings, lengths_at, start = read
+    raw = np.frombuffer(b"".join(messages), dtype=np.uint8).reshape(len(messages), len(first))
+    if not all(_same(raw[:, at : at + 4]) for at in (0, *lengths_at)):
+        return None
+    clock = raw[:, STAMP:TEXT].copy()
+    seconds = clock[:, :4].copy().view("<i4")[:, 0].astype(np.int64)
+    nanoseconds = clock[:, 4:].copy().view("<u4")[:, 0].astype(np.int64)
+    values = raw[:, start : start + 8 * doubles].copy().view("<f8")
+    return seconds * 1_000_000_000 + nanoseconds, np.ascontiguousarray(values), strings
+
+
+def encode(stamp_ns: IntArray, values: FloatArray, texts: tuple[str, ...]) -> NDArray[np.uint8]:
+    """Return (N, length) bytes, one row a message, of stamps (N,) and values (N, doubles)."""
+    prefix = bytearray(LITTLE_ENDIAN + bytes(8))
+    for text in texts:
+        prefix += bytes(-(len(prefix) - 4) % 4)
+        data = text.encode() + b"\0"
+        prefix += struct.pack("<I", len(data)) + data
+    prefix += bytes(-(len(prefix) - 4) % 8)
+    raw = np.empty((len(stamp_ns), len(prefix) + 8 * values.shape[1]), dtype=np.uint8)
+    raw[:, : len(prefix)] = np.frombuffer(bytes(prefix), dtype=np.uint8)
+    seconds, nanoseconds = np.divmod(stamp_ns, 1_000_000_000)
+    raw[:, 4:8] = seconds.astype("<i4")[:, None].view(np.uint8)
+    raw[:, 8:12] = nanoseconds.astype("<u4")[:, None].view(np.uint8)
+    raw[:, len(prefix) :] = np.ascontiguousarray(values, dtype="<f8").view(np.uint8)
+    return raw
+
+
+def _read_texts(message: bytes, texts: int) -> tuple[list[str], list[int], int] | None:
+    """Return the strings after the stamp, where their lengths stand, and the first double."""
+    strings, lengths_at, at = [], [], TEXT
+    for _ in range(texts):
+        at += -(at - 4) % 4
+        if at + 4 > len(message):
+            return None
+        (length,) = struct.unpack_from("<I", message, at)
+        lengths_at.append(at)
+        at += 4
+        if length == 0 or at + length > len(message):
+            return None
+        strings.append(message[at : at + length - 1].decode("utf-8", "replace"))
+        at += length
+    return strings, lengths_at, at + -(at - 4) % 8
+
+
+def _same(columns: NDArray[np.uint8]) -> bool:
+    return bool((columns == columns[0]).all())

@@ -1,0 +1,136 @@
+"""Read a rosbag2 recording into arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..core.series import FloatArray, ImuSeries, PoseSeries
+from . import messages
+from .errors import RecordingError
+from .open_bag import iterate, opened
+from .recording import Recording
+from .reference import FILE_NAME, Reference
+from .topics import FIELD_TYPE, IMU_TYPE, TRUTH_TYPE, Topics
+
+if TYPE_CHECKING:
+    from rosbags.rosbag2 import Reader
+    from rosbags.typesys.store import Typestore
+
+Progress = Callable[[float], None]
+NOTE_PREFIX = "dualfoot."
+
+
+def read_bag(
+    path: str | Path, *, topics: Topics | None = None, progress: Progress | None = None
+) -> Recording:
+    """Read the samples, the truth and the reference of a rosbag2 recording (MCAP or sqlite3).
+
+    ``path`` is the folder of the bag, or its one .mcap or .db3 file.  A topic that is not there
+    is None in the recording.  ``progress`` is called with the share read, 0 to 1.
+
+    Raises
+    ------
+    RecordingError
+        When there is no bag, it is damaged, or a topic has another type; each names what and
+        where, and what to do.
+    """
+    path = Path(path)
+    topics = topics or Topics()
+    raw, notes, store = _read_raw(path, topics, progress)
+    tables = {
+        topic: messages.table(data, msgtype, topic, store)
+        for topic, (msgtype, data) in raw.items()
+    }
+    parts: dict[str, Any] = {}
+    for foot in ("left", "right"):
+        names = topics.of(foot)
+        parts[foot] = _imu(tables.get(names.imu), tables.get(names.magnetic_field))
+        parts[f"{foot}_truth"] = _truth(tables.get(names.truth))
+        parts[f"{foot}_frame"] = _frame(tables.get(names.imu), names.imu_frame)
+    return Recording(**parts, reference=_reference(path), notes=notes)
+
+
+def _read_raw(
+    path: Path, topics: Topics, progress: Progress | None
+) -> tuple[dict[str, tuple[str, list[bytes]]], dict[str, str], Typestore]:
+    from rosbags.typesys import Stores, get_typestore
+
+    expected = _expected_types(topics)
+    raw: dict[str, tuple[str, list[bytes]]] = {}
+    with opened(path) as reader:
+        wanted = [c for c in reader.connections if c.topic in expected]
+        for connection in wanted:
+            _check_type(connection.topic, connection.msgtype, expected[connection.topic])
+            raw[connection.topic] = (connection.msgtype, [])
+        total = max(1, sum(c.msgcount for c in wanted))
+        for done, (topic, data) in enumerate(iterate(path, reader, wanted)):
+            raw[topic][1].append(data)
+            if progress is not None and done % 4096 == 0:
+                progress(min(1.0, done / total))
+        notes = _notes(reader)
+    return raw, notes, get_typestore(Stores.ROS2_JAZZY)
+
+
+def _expected_types(topics: Topics) -> dict[str, str]:
+    expected = {}
+    for foot in ("left", "right"):
+        names = topics.of(foot)
+        expected[names.imu] = IMU_TYPE
+        expected[names.magnetic_field] = FIELD_TYPE
+        expected[names.truth] = TRUTH_TYPE
+    return expected
+
+
+def _check_type(topic: str, found: str, expected: str) -> None:
+    if found != expected:
+        raise RecordingError(f"topic '{topic}' holds {found}; allowed is {expected}")
+
+
+def _notes(reader: Reader) -> dict[str, str]:
+    custom = reader.storage.metadata.custom or {}
+    return {
+        key.removeprefix(NOTE_PREFIX): str(value)
+        for key, value in custom.items()
+        if key.startswith(NOTE_PREFIX)
+    }
+
+
+def _imu(imu: messages.Table | None, field: messages.Table | None) -> ImuSeries | None:
+    if imu is None:
+        return None
+    magnetic = None if field is None else _on_stamps(imu, field)
+    rate, force = imu.values[:, messages.RATE], imu.values[:, messages.FORCE]
+    return ImuSeries(imu.stamp_ns, force, rate, magnetic)
+
+
+def _on_stamps(imu: messages.Table, field: messages.Table) -> FloatArray:
+    """Return the field (N, 3) at the stamps of the samples; nan where none was measured."""
+    rows = np.full((len(imu.stamp_ns), 3), np.nan)
+    _, at, source = np.intersect1d(imu.stamp_ns, field.stamp_ns, return_indices=True)
+    rows[at] = field.values[source, :3]
+    return rows
+
+
+def _truth(truth: messages.Table | None) -> PoseSeries | None:
+    if truth is None:
+        return None
+    from scipy.spatial.transform import Rotation
+
+    quaternion, body_velocity = truth.values[:, 3:7], truth.values[:, 43:46]
+    if not len(quaternion):
+        return PoseSeries(truth.stamp_ns, truth.values[:, :3], quaternion, body_velocity)
+    velocity = Rotation.from_quat(quaternion).apply(body_velocity)
+    return PoseSeries(truth.stamp_ns, truth.values[:, :3], quaternion, velocity)
+
+
+def _frame(imu: messages.Table | None, default: str) -> str:
+    return (imu.texts[0] if imu is not None else "") or default
+
+
+def _reference(path: Path) -> Reference | None:
+    beside = (path if path.is_dir() else path.parent) / FILE_NAME
+    return Reference.load(beside) if beside.exists() else None

@@ -1,0 +1,44 @@
+"""What a recording holds once it is in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from ..core.series import ImuSeries, PoseSeries
+from .reference import Reference
+
+
+@dataclass(frozen=True)
+class Recording:
+    """The samples of both feet, and the truth and reference that came with them.
+
+    Attributes
+    ----------
+    left, right : samples in the order they were recorded, stamps as recorded; None if missing
+    left_truth, right_truth : true poses (velocity in the navigation frame), where there are any
+    reference : floor markers and the like, where there are any
+    left_frame, right_frame : frame ids of the two sensors
+    notes : further facts that travel with the bag (where it comes from, which clock it has ...)
+    """
+
+    left: ImuSeries | None = None
+    right: ImuSeries | None = None
+    left_truth: PoseSeries | None = None
+    right_truth: PoseSeries | None = None
+    reference: Reference | None = None
+    left_frame: str = "left_imu"
+    right_frame: str = "right_imu"
+    notes: Mapping[str, str] = field(default_factory=dict)
+
+    def imu(self, foot: str) -> ImuSeries | None:
+        """Return the samples of ``foot``, "left" or "right"."""
+        return self.left if foot == "left" else self.right
+
+    def truth(self, foot: str) -> PoseSeries | None:
+        """Return the true poses of ``foot``, "left" or "right"."""
+        return self.left_truth if foot == "left" else self.right_truth
+
+    def frame(self, foot: str) -> str:
+        """Return the frame id of the sensor on ``foot``, "left" or "right"."""
+        return self.left_frame if foot == "left" else self.right_frame

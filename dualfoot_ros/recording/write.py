@@ -1,0 +1,151 @@
+"""Write a recording as a rosbag2, whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.series import FloatArray, ImuSeries, IntArray, PoseSeries
+from ..core.trajectory import FEET
+from . import cdr, messages
+from .atomic import check_target, new_directory
+from .errors import RecordingError
+from .open_bag import METADATA
+from .read import NOTE_PREFIX, Progress
+from .recording import Recording
+from .reference import FILE_NAME
+from .topics import FIELD_TYPE, IMU_TYPE, TRUTH_TYPE, Topics
+
+STORAGES = ("mcap", "sqlite3")
+LAST_STAMP = 2**31 * 1_000_000_000  # builtin_interfaces/Time has 32-bit seconds
+
+
+class _Channel(NamedTuple):
+    topic: str
+    msgtype: str
+    stamp_ns: IntArray
+    rows: NDArray[np.uint8]
+
+
+def write_bag(
+    path: str | Path,
+    recording: Recording,
+    *,
+    storage: str = "mcap",
+    overwrite: bool = False,
+    topics: Topics | None = None,
+    progress: Progress | None = None,
+) -> Path:
+    """Write ``recording`` as a rosbag2 folder ``path`` and return the path.
+
+    Samples keep their order: a message is logged at the latest stamp so far.  The reference goes
+    into ``reference.yaml`` inside the folder, the notes into the bag's custom data.
+
+    Raises
+    ------
+    RecordingError
+        When ``path`` exists (and ``overwrite`` is not set or it is no bag), there is nothing to
+        write, a stamp cannot be put into a ROS message, or ``storage`` is unknown.
+    OSError
+        When the folder cannot be written.  Nothing is left half-written then.
+    """
+    path = Path(path)
+    if storage not in STORAGES:
+        raise RecordingError(f"storage is '{storage}'; allowed is one of {', '.join(STORAGES)}")
+    check_target(path, overwrite=overwrite, marker=METADATA)
+    channels = list(_channels(recording, topics or Topics()))
+    if not any(len(c.stamp_ns) for c in channels):
+        raise RecordingError("there is no sample to write; give a recording of at least one foot")
+    with new_directory(path, overwrite=overwrite, marker=METADATA) as folder:
+        _write(folder, channels, recording, storage, progress)
+        if recording.reference is not None:
+            recording.reference.save(folder / FILE_NAME)
+    return path
+
+
+def _channels(recording: Recording, topics: Topics) -> Iterator[_Channel]:
+    for foot in FEET:
+        names, frame = topics.of(foot), recording.frame(foot)
+        imu, truth = recording.imu(foot), recording.truth(foot)
+        if imu is not None:
+            yield _channel(names.imu, IMU_TYPE, imu.stamp_ns, _imu_values(imu), (frame,))
+            if imu.magnetic_field is not None:
+                values = np.zeros((len(imu), messages.FIELD_DOUBLES))
+                values[:, :3] = imu.magnetic_field
+                yield _channel(names.magnetic_field, FIELD_TYPE, imu.stamp_ns, values, (frame,))
+        if truth is not None and len(truth):
+            frames = ("odom", names.foot_frame)
+            yield _channel(names.truth, TRUTH_TYPE, truth.stamp_ns, _truth_values(truth), frames)
+
+
+def _channel(
+    topic: str, msgtype: str, stamp_ns: IntArray, values: FloatArray, texts: tuple[str, ...]
+) -> _Channel:
+    bad = np.flatnonzero((stamp_ns < 0) | (stamp_ns >= LAST_STAMP))
+    if len(bad):
+        raise RecordingError(
+            f"stamp {bad[0]} for topic '{topic}' is {stamp_ns[bad[0]]} ns; allowed in a ROS "
+            f"message is 0 to {LAST_STAMP - 1} ns, so shift the clock first"
+        )
+    return _Channel(topic, msgtype, stamp_ns, cdr.encode(stamp_ns, values, texts))
+
+
+def _imu_values(imu: ImuSeries) -> FloatArray:
+    values = np.zeros((len(imu), messages.IMU_DOUBLES))
+    values[:, 3] = 1.0
+    values[:, 4] = -1.0  # REP 145: no orientation
+    values[:, messages.RATE] = imu.angular_rate
+    values[:, messages.FORCE] = imu.specific_force
+    return values
+
+
+def _truth_values(truth: PoseSeries) -> FloatArray:
+    from scipy.spatial.transform import Rotation
+
+    values = np.zeros((len(truth), messages.TRUTH_DOUBLES))
+    values[:, :3] = truth.position
+    values[:, 3:7] = truth.quaternion
+    if truth.velocity is not None:
+        rotation = Rotation.from_quat(truth.quaternion)
+        values[:, 43:46] = rotation.apply(truth.velocity, inverse=True)
+    return values
+
+
+def _write(
+    folder: Path,
+    channels: list[_Channel],
+    recording: Recording,
+    storage: str,
+    progress: Progress | None,
+) -> None:
+    from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_JAZZY)
+    writer = Writer(folder, version=9, storage_plugin=StoragePlugin[storage.upper()])
+    if storage == "mcap":  # zstd chunks, which every MCAP reader knows
+        writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
+    for key, value in recording.notes.items():
+        writer.set_custom_data(NOTE_PREFIX + key, str(value))
+    with writer:
+        connections = [
+            writer.add_connection(c.topic, c.msgtype, typestore=store) for c in channels
+        ]
+        logged, which, row = _in_order(channels)
+        for done, (stamp, channel, i) in enumerate(zip(logged, which, row, strict=True)):
+            writer.write(connections[channel], stamp, channels[channel].rows[i].tobytes())
+            if progress is not None and done % 4096 == 0:
+                progress(done / len(logged))
+
+
+def _in_order(channels: list[_Channel]) -> tuple[list[int], list[int], list[int]]:
+    """Return log time, channel and row of every message, in the order of the log times."""
+    logged = np.concatenate([np.maximum.accumulate(c.stamp_ns) for c in channels])
+    which = np.concatenate([np.full(len(c.stamp_ns), k) for k, c in enumerate(channels)])
+    row = np.concatenate([np.arange(len(c.stamp_ns)) for c in channels])
+    order = np.argsort(logged, kind="stable")
+    return logged[order].tolist(), which[order].tolist(), row[order].tolist()

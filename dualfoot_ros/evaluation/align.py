@@ -22,6 +22,16 @@ class Options:
     pair: Pair = Pair.COMMON
     length_m: float = FIRST_STRIDES_M
 
+    def words(self, to: str) -> str:
+        """Say how the frame is fixed to ``to``; markers always take one transform."""
+        each = self.pair is Pair.EACH and to == "truth"
+        feet = "one transform for each foot" if each else "one transform for both feet"
+        if self.align is Align.UMEYAMA4:
+            how = "yaw and translation of the best fit over the whole walk"
+        else:
+            how = f"start, and heading over the first {self.length_m:g} m"
+        return f"{self.align.value} ({how}), {feet}, to the {to}"
+
 
 Markers = Mapping[str, FloatArray]
 """Where a foot ("left", "right" or both) stood, stance by stance: (K, 3) m, in order."""

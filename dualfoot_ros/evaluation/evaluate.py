@@ -83,19 +83,7 @@ class Evaluation:
         """Say in words how the frame was fixed."""
         if self.aligned_to is None:
             return "none (no reference)"
-        feet = "one transform for both feet" if len(self._distinct) == 1 else "one for each foot"
-        if self.aligned_to == "markers":
-            feet = "one transform for both feet"
-        how = self.options.align.value
-        if self.options.align is Align.FIRST_STRIDES:
-            how += f" (start, and heading over the first {self.options.length_m:g} m)"
-        else:
-            how += " (yaw and translation over the whole walk)"
-        return f"{how}, {feet}, to the {self.aligned_to}"
-
-    @property
-    def _distinct(self) -> set[int]:
-        return {id(t) for t in self.transforms.values()}
+        return self.options.words(self.aligned_to)
 
     def to_dict(self) -> dict[str, Any]:
         """Return all figures as plain values for JSON; None where a figure does not exist."""

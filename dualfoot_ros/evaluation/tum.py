@@ -24,12 +24,15 @@ def write_tum(path: Path, track: FootTrajectory | PoseSeries) -> Path:
     return path
 
 
-def write_tracks(directory: Path, evaluation: Evaluation) -> list[Path]:
-    """Write both feet and, where known, their truth at the same stamps; return the paths."""
+def write_tracks(directory: Path, evaluation: Evaluation, prefix: str = "") -> list[Path]:
+    """Write both feet and, where known, their truth at the same stamps; return the paths.
+
+    The estimates are in the frame of the reference, as they were aligned for the figures.
+    """
     paths = [
-        write_tum(directory / f"{foot}.tum", track)
+        write_tum(directory / f"{prefix}{foot}.tum", track)
         for foot, track in evaluation.feet_tracks.items()
     ]
     for foot, truth in zip(evaluation.feet_tracks, evaluation.truth or (), strict=False):
-        paths.append(write_tum(directory / f"{foot}_truth.tum", truth))
+        paths.append(write_tum(directory / f"{prefix}{foot}_truth.tum", truth))
     return paths

@@ -1,0 +1,42 @@
+"""How all figures look: colours that colour-blind readers can tell apart, sizes, file type."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+# Okabe and Ito's palette.
+FOOT = {"left": "#0072B2", "right": "#D55E00"}
+TRUTH = "#A8A8A8"
+MARKER = "#000000"
+GREEN = "#009E73"
+PINK = "#CC79A7"
+LINES = ("-", "--", ":", "-.")
+
+
+def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **kwargs: Any) -> Any:
+    """Return a figure of its own (no pyplot state) and its (rows, columns) axes."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height), dpi=130, layout="constrained")
+    axes = figure.subplots(rows, columns, squeeze=False, **kwargs)
+    for axis in axes.flat:
+        tidy(axis)
+    return figure, axes
+
+
+def tidy(axis: Axes) -> None:
+    """Take away what is no data."""
+    axis.spines[["top", "right"]].set_visible(False)
+    axis.grid(visible=True, color="#E4E4E4", linewidth=0.6)
+    axis.set_axisbelow(True)
+
+
+def save(figure: Figure, path: Path) -> Path:
+    """Write a figure as PNG and return the path."""
+    figure.savefig(path, format="png")
+    return path

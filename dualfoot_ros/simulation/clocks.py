@@ -73,7 +73,7 @@ def sample_times(
     rng: np.random.Generator,
 ) -> Sampling:
     """Return when a device of that nominal rate samples within ``duration_s`` of true time."""
-    speed = 1.0 + 1e-6 * config.drift
+    speed = float(1.0 + 1e-6 * config.drift)
     interval = 1.0 / (rate_hz * speed)
     count = int(np.floor(duration_s / interval - config.phase + 1e-9))
     edges = interval * (config.phase + np.arange(count + 1))

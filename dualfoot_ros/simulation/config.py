@@ -73,13 +73,13 @@ class Gait(Parameters):
         0.0065, "step length over cadence", unit="m min", minimum=0.002, maximum=0.02
     )
     stance_share: float = parameter(
-        0.345, "share of the cycle in which the foot is flat", minimum=0.2, maximum=0.45
+        0.325, "share of the cycle in which the foot stands", minimum=0.2, maximum=0.45
     )
     stance_share_std: float = parameter(
         0.012, "its spread from step to step", minimum=0.0, maximum=0.05
     )
     kappa: float = parameter(
-        0.55, "moment of least distance within the stance", minimum=0.3, maximum=0.8
+        0.56, "moment of least distance within the stance", minimum=0.3, maximum=0.8
     )
     kappa_std: float = parameter(0.02, "its spread from step to step", minimum=0.0, maximum=0.1)
     min_distance: float = parameter(
@@ -141,7 +141,7 @@ class Gait(Parameters):
         0.003, "random angular rate of the standing feet", unit="rad/s", minimum=0.0, maximum=0.1
     )
     impact: float = parameter(
-        0.0015, "ringing of the shoe at heel strike", unit="m", minimum=0.0, maximum=0.01
+        0.002, "ringing of the shoe at heel strike", unit="m", minimum=0.0, maximum=0.01
     )
 
 

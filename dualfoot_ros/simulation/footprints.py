@@ -13,7 +13,11 @@ from .routes import Route
 
 # Shares of the time between heel-off and flat foot (as seen on real walks, see docs/simulation.md).
 TOE_OFF = 0.27
-HEEL_STRIKE = 0.80
+HEEL_STRIKE = 0.84
+# The foot counts as standing from the last of the sole's slap to the first of the heel's rise:
+# there its angular rate is below 0.8 rad/s, which is what detectors see.
+STILL_FROM = 0.97
+STILL_TO = 0.06
 STAIR_CYCLE_S = 1.25
 
 
@@ -24,8 +28,8 @@ class Footprints:
     Attributes
     ----------
     side : (K,) +1 left, -1 right
-    flat_s : (K,) s, when the foot is flat on the floor
-    heel_off_s : (K,) s, when the foot left its place before
+    flat_s : (K,) s, when the foot has come to rest on the floor
+    heel_off_s : (K,) s, when the heel began to leave the place before
     progress : (K,) m along the route
     lateral : (K,) m to the left of the route
     floor : (K,) m
@@ -49,10 +53,25 @@ class Footprints:
         return np.flatnonzero(self.side == side)
 
     def stances_of(self, side: int) -> FloatArray:
-        """Return (M, 2) s: from flat foot to heel-off, the first from 0, the last to the end."""
+        """Return (M, 2) s: start and end of each stance, the first from 0, the last to the end."""
         rows = self.rows_of(side)
-        ends = np.append(self.heel_off_s[rows[1:]], self.end_s)
-        return np.column_stack([self.flat_s[rows], ends])
+        start, end = self.stance_start_s[rows], self.stance_end_s[rows[1:]]
+        return np.column_stack([start, np.append(end, self.end_s)])
+
+    @property
+    def stance_start_s(self) -> FloatArray:
+        """When the foot counts as standing where it landed, (K,) s."""
+        return self.flat_s - (1.0 - STILL_FROM) * (self.flat_s - self.heel_off_s)
+
+    @property
+    def stance_end_s(self) -> FloatArray:
+        """When the foot ceases to stand at the place before, (K,) s."""
+        return self.heel_off_s + STILL_TO * (self.flat_s - self.heel_off_s)
+
+
+def step_share(stance_share: float) -> float:
+    """Return the share of the cycle from heel-off to rest that leaves this share of stance."""
+    return (1.0 - stance_share) / (STILL_FROM - STILL_TO)
 
 
 def plan(config: WalkConfig, route: Route, rng: np.random.Generator) -> Footprints:
@@ -157,7 +176,7 @@ class _Walker:
     def _next_flat(self, last: float, cycle: float) -> float:
         gait = self.config.gait
         if last == 0.0:
-            return self.now + (1.0 - gait.stance_share) * cycle
+            return self.now + step_share(gait.stance_share) * cycle
         return last + 0.5 * cycle * (1.0 + gait.cycle_std * self._normal())
 
     def _scatter(self, on_stair: bool) -> tuple[float, float]:
@@ -179,7 +198,7 @@ class _Walker:
         if len(self.rows) >= start + 2:
             cycle = flat - self.rows[-2][1]
         share = gait.stance_share + gait.stance_share_std * self._normal()
-        heel_off = flat - (1.0 - share) * cycle
+        heel_off = flat - step_share(share) * cycle
         self.rows.append((side, flat, heel_off, progress, lateral, passes, stair))
 
     def _normal(self) -> float:

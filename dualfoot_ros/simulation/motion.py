@@ -158,15 +158,20 @@ class Walker:
         along = progress[before] + (progress[now] - progress[before]) * share
         across = lateral[before] + (lateral[now] - lateral[before]) * share
         across = across + self.side * self.bulge[now] * bump
-        yaw, pitch, roll = self._angles(progress).T
-        sole = gait.sole_height(pitch) * (q < 1.0)
-        along = along - gait.FOOT_LENGTH_M * (1.0 - np.cos(np.minimum(pitch, 0.0))) * (q < 1.0)
+        pitch = self._pitch()
+        along = along - gait.FOOT_LENGTH_M * (1.0 - np.cos(np.minimum(pitch, 0.0)))
         ring = self._ring()
         ground = self.route.point(along + ring[:, 0], across + ring[:, 1])
-        height = self._height() + sole + ring[:, 2]
-        return np.column_stack([ground, height, yaw, pitch, roll])
+        slow = self._roll_over() + self._rest[:, 1]
+        height = self._height() + gait.sole_height(pitch) - gait.give(pitch, slow) + ring[:, 2]
+        return np.column_stack([ground, height, self._angles(progress, pitch)])
 
-    def _angles(self, progress: FloatArray) -> FloatArray:
+    def _pitch(self) -> FloatArray:
+        """Return the (N,) pitch of the stride itself in rad, zero while the foot is flat."""
+        scatter = 1.0 + self.config.gait.shape_std * self.scatter[self.now, 2]
+        return gait.shape("pitch", self.q) * scatter * self.scale[self.now]
+
+    def _angles(self, progress: FloatArray, pitch: FloatArray) -> FloatArray:
         """Return (N, 3) yaw, pitch, roll of the shoe in rad."""
         config, now, q = self.config.gait, self.now, self.q
         scatter = 1.0 + config.shape_std * self.scatter[now]
@@ -175,9 +180,9 @@ class Walker:
         looked = progress[self.before] + (progress[now] - progress[self.before]) * turn
         yaw = gait.shape("yaw", q) * scatter[:, 0] * size
         roll = -gait.shape("roll", q) * (1.0 + 3.0 * (scatter[:, 1] - 1.0)) * size
-        pitch = gait.shape("pitch", q) * scatter[:, 2] * size + self._roll_over()
         heading = self.route.heading(looked) + self.side * (config.toe_out + yaw)
-        return np.column_stack([heading, pitch, self.side * roll]) + self._rest
+        rolled = np.column_stack([heading, pitch + self._roll_over(), self.side * roll])
+        return rolled + self._rest
 
     def _roll_over(self) -> FloatArray:
         """Return the slow forward rotation of the stance, taken back during the swing."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.series import FloatArray
 from .config import WalkConfig
-from .footprints import Footprints
+from .footprints import HEEL_STRIKE, TOE_OFF, Footprints
 from .motion import ShoeMotion, Walker
 from .routes import Route
 
@@ -54,7 +54,7 @@ def pass_plan(
     """Draw moment and distance of every pass."""
     gait = config.gait
     row = np.flatnonzero(prints.passes)
-    start, end = prints.flat_s[row - 1], prints.heel_off_s[row + 1]
+    start, end = prints.stance_start_s[row - 1], prints.stance_end_s[row + 1]
     scatter = np.clip(rng.standard_normal((2, len(row))), -2.5, 2.5)
     kappa = gait.kappa + gait.kappa_std * scatter[0]
     turn = np.abs(route.heading(prints.progress[row]) - route.heading(prints.progress[row - 1]))
@@ -69,7 +69,7 @@ def tune(walkers: tuple[Walker, Walker], prints: Footprints, wanted: PassPlan) -
     if len(wanted.row) == 0:
         return
     lever = walkers[0].config.mount.lever_of
-    swing = 0.53 * (prints.flat_s[wanted.row] - prints.heel_off_s[wanted.row])
+    swing = (HEEL_STRIKE - TOE_OFF) * (prints.flat_s[wanted.row] - prints.heel_off_s[wanted.row])
     for _ in range(ROUNDS):
         motions = (walkers[0].motion(), walkers[1].motion())
         near = np.maximum(wanted.time_s - 0.12, wanted.start), wanted.time_s + 0.12

@@ -94,8 +94,9 @@ class SensorConfig(Parameters):
 
 
 def _ideal() -> SensorConfig:
-    zero = {s.name: 0.0 for s in SensorConfig.specs() if s.minimum == 0.0}
-    return SensorConfig(**zero)
+    return SensorConfig.from_mapping(
+        {s.name: 0.0 for s in SensorConfig.specs() if s.minimum == 0.0}
+    )
 
 
 def _good() -> SensorConfig:

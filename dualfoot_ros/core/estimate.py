@@ -43,6 +43,20 @@ class JointEstimate:
         start = foot * at.FOOT + at.POS
         return self._space.w[start : start + 3].copy()
 
+    def velocity(self, foot: int) -> FloatArray:
+        """Return the velocity (3,) m/s of foot 0 or 1."""
+        start = foot * at.FOOT + at.VEL
+        return self._space.w[start : start + 3].copy()
+
+    def place(self, foot: int, position: FloatArray) -> None:
+        """Put foot 0 or 1 at ``position`` (3,) m; nothing else changes."""
+        start = foot * at.FOOT + at.POS
+        self._space.w[start : start + 3] = position
+
+    def covariance(self) -> FloatArray:
+        """Return the covariance (30, 30) of the error states."""
+        return self._space.covariance()
+
     def rotation(self, foot: int) -> FloatArray:
         """Return R_nb (3, 3) of foot 0 or 1."""
         start = foot * at.FOOT + at.ROT
@@ -89,6 +103,19 @@ class JointEstimate:
             w[at.S_Y + i] = innovation[i]
         s = w[at.S_S : at.S_S + 9].reshape(3, 3)[:m, :m].copy()
         return s, float(self._engine.correct(w, m))
+
+    def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
+        """Update with one measurement whose statistics are known; return the NIS.
+
+        ``cross`` (30,) is the covariance of the error state with the predicted measurement error,
+        ``s`` the innovation variance; ``innovation`` is predicted minus measured.
+        """
+        w = self._space.w
+        w[at.S_G : at.S_G + 32] = 0.0
+        w[at.S_G : at.S_G + 15] = cross[:15]
+        w[at.S_G + 16 : at.S_G + 31] = cross[15:]
+        w[at.S_S], w[at.S_Y] = s, innovation
+        return float(self._engine.correct(w, 1))
 
     def _collect(self, rows: Sequence[Row]) -> None:
         w = self._space.w

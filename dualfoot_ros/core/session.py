@@ -8,19 +8,19 @@ that were applied in between are applied again at their own epochs.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
 from .alignment import Standstill
 from .config import TrackerConfig
 from .constraints import METHODS
-from .constraints.method import Request, StancePhase
+from .constraints.method import Method, Request, StancePhase
 from .estimate import JointEstimate, Outcome
-from .heading import FirstStrides
+from .heading import Headings, turn
 from .kernel import Engine
 from .kernel import layout as at
+from .past import Past
 from .series import FloatArray, IntArray
 from .trajectory import FEET, Event, EventKind
 from .workspace import Workspace
@@ -36,19 +36,18 @@ class Session:
     ) -> None:
         """Level both feet from ``still``."""
         module = METHODS[config.method]
-        self._method = module.Method(config.constraint) if hasattr(module, "Method") else None
+        known = hasattr(module, "Method")
+        self._method: Method = module.Method(config.constraint) if known else Method()
         stance = config.stance
         memory = stance.min_stance + stance.min_swing + stance.window + 0.1
-        memory += self._method.memory_s if self._method else 0.0
+        memory += self._method.memory_s
         self.rate_hz = rate_hz
         self.space = Workspace(config, rate_hz, memory)
         self.phase = "standing"
-        self.headings = (config.heading.given, config.heading.given)
+        self.headings = Headings(config.heading, self.space)
         self._config, self._still = config, still
-        self._origin, self._forward = np.zeros(3), config.heading.given
-        known = config.heading.source == "sensor"
-        self._strides = [None if known else FirstStrides(config.heading) for _ in FEET]
-        self._offsets = [0.0, 0.0]
+        self._origin = np.zeros(3)
+        self._past = Past(self.space)
         self._actions: list[tuple[int, Callable[[JointEstimate], Outcome]]] = []
         self._dt, self._values = np.empty(1), np.empty((1, 12))
         self._row = np.zeros((1, at.OUT))
@@ -61,7 +60,30 @@ class Session:
         self._estimate = JointEstimate(self.space, engine)
 
     def _level(self) -> None:
-        self.space.level(self._config, self._still.result(), self._origin, self._forward)
+        forward = self.headings.forward
+        self.space.level(self._config, self._still.result(), self._origin, forward)
+        arm = self._method.lever_arm
+        if arm is not None:
+            self._estimate.place(1, self._second_sensor(arm))
+        self._watch()
+
+    def _second_sensor(self, arm: FloatArray) -> FloatArray:
+        """Return where the second sensor of a rigid pair is (3,), m."""
+        return self._estimate.position(0) + self._estimate.rotation(0) @ arm
+
+    def _join_pair(self, now: int) -> Found:
+        """Put the second sensor of a rigid pair back beside the first, both having turned."""
+        arm = self._method.lever_arm
+        if arm is None:
+            return []
+        shift = self._second_sensor(arm) - self._estimate.position(1)
+        return [turn(self.space, self._engine, 1, 0.0, np.zeros(3), shift, now)]
+
+    def _watch(self) -> None:
+        """Have the kernel report when the method wants to know, once the heading is known."""
+        limit = self._method.watch_m
+        if self.headings.known:
+            self.space.w[at.C_WATCH] = limit * abs(limit)
 
     def aligned_event(self, stamp: int) -> Event:
         """Return the event that says what the alignment found."""
@@ -128,6 +150,8 @@ class Session:
                 found += self._stance_confirmed(foot)
             elif bits[foot] & at.STANCE_ENDED:
                 found += self._stance_ended(foot)
+        if notices & at.NOTICE_WATCH:
+            found += self._constrain("both", self._method.on_epoch(self._past))
         return found
 
     def _clean_phases(self, bits: list[int]) -> None:
@@ -147,64 +171,84 @@ class Session:
                 self._engine.set_flags(space.n, foot, first, now, still)
                 firsts.append(first)
         if firsts:
-            self._engine.restore(space.w, space.n, min(firsts))
-            self._replay(min(firsts))
+            self._replay(min(firsts), [])
 
-    def _replay(self, first: int) -> None:
-        """Run epochs ``first``..newest again from the present state, constraints included."""
+    def _replay(self, first: int, fresh: Sequence[Request]) -> list[Outcome]:
+        """Go back to before epoch ``first`` and run up to the newest again.
+
+        Constraints already applied since are applied again, each at its own epoch; the ``fresh``
+        ones, none earlier than ``first - 1``, join them.  Returns what came of the fresh ones.
+        """
         space, engine = self.space, self._engine
-        for epoch, apply in self._actions:
-            if epoch >= first:
-                engine.rerun(space.w, space.n, first, epoch)
-                apply(self._estimate)
-                first = epoch + 1
+        engine.restore(space.w, space.n, first)
+        outcomes = []
+        old = [(epoch, apply, False) for epoch, apply in self._actions if epoch >= first]
+        new = [(request.epoch, request.apply, True) for request in fresh]
+        for epoch, apply, is_fresh in sorted([*old, *new], key=lambda action: action[0]):
+            engine.rerun(space.w, space.n, first, epoch)
+            first = max(first, epoch + 1)
+            outcome = apply(self._estimate)
+            if is_fresh:
+                outcomes.append(outcome)
         engine.rerun(space.w, space.n, first, space.epoch)
+        return outcomes
+
+    def _phase(self, foot: int, last: int) -> StancePhase:
+        space = self.space
+        lag = 0.5 * (int(space.n[at.N_WINDOW]) - 1)
+        first = space.foot(foot, "N_START")
+        period, heading = self._past.period_s, self.headings.mean
+        return StancePhase(foot, first, last, lag, space.epoch, period, heading)
 
     def _stance_confirmed(self, foot: int) -> Found:
-        stamp = self._stamp(self.space.foot(foot, "N_START"))
-        now = self._stamp(self.space.epoch)
+        stamp = self._past.stamp(self.space.foot(foot, "N_START"))
+        now = self._past.stamp(self.space.epoch)
         found = [Event(EventKind.STANCE_START, stamp, FEET[foot], now)]
-        strides = self._strides[foot]
-        if strides is not None:
-            direction = strides.add(self._estimate.position(foot))
-            if direction is not None:
-                self._strides[foot] = None
-                found.append(self._turn_to_first_strides(foot, direction, strides))
-        self._update_heading(foot)
+        walking = self.phase == "walking"
+        turned = self.headings.stance(self._engine, foot, now, walking)
+        if turned and self.headings.known:
+            turned += self._join_pair(now)
+            self._watch()
+        found += turned
+        if self.headings.known:
+            phase = self._phase(foot, self.space.epoch)
+            found += self._constrain(FEET[foot], self._method.on_stance_start(phase, self._past))
         return found
 
     def _stance_ended(self, foot: int) -> Found:
-        space = self.space
-        first, last = space.foot(foot, "N_START"), space.foot(foot, "N_LEAVE") - 1
-        now = self._stamp(space.epoch)
-        end = Event(EventKind.STANCE_END, self._stamp(last, now), FEET[foot], now)
+        last = self.space.foot(foot, "N_LEAVE") - 1
+        now = self._past.stamp(self.space.epoch)
+        found = [Event(EventKind.STANCE_END, self._past.stamp(last, now), FEET[foot], now)]
         self.phase = "walking"
-        found = [end]
-        if self._method is not None and self.headed:
-            lag = 0.5 * (int(space.n[at.N_WINDOW]) - 1)
-            stance = StancePhase(foot, first, last, lag, space.epoch, 1.0 / self.rate_hz)
-            request = self._method.on_stance_end(stance, self)
-            if request is not None:
-                found.append(self._constrain(foot, request))
+        self._past.ended[foot] = last
+        if self.headings.known:
+            phase = self._phase(foot, last)
+            found += self._constrain(FEET[foot], self._method.on_stance_end(phase, self._past))
         return found
 
-    def _constrain(self, foot: int, request: Request) -> Event:
-        space = self.space
-        if request.roll_back:
-            self._engine.restore(space.w, space.n, request.epoch + 1)
-        outcome = request.apply(self._estimate)
-        applied_at = request.epoch if request.roll_back else space.epoch
-        if request.roll_back:
-            self._replay(request.epoch + 1)
-        if outcome.accepted:
+    def _constrain(self, foot: str, requests: Sequence[Request]) -> Found:
+        """Apply what a method asked for: all at their moments, or all now."""
+        if not requests:
+            return []
+        space, now = self.space, self.space.epoch
+        if requests[0].roll_back:
+            requests = sorted(requests, key=lambda request: request.epoch)
+            outcomes = self._replay(requests[0].epoch + 1, requests)
+        else:
+            outcomes = [request.apply(self._estimate) for request in requests]
+        for request, outcome in zip(requests, outcomes, strict=True):
+            if outcome.accepted:
+                self._actions.append((request.epoch if request.roll_back else now, request.apply))
+        if len(self._actions) > 4 * space.ring:
             self._actions = [a for a in self._actions if a[0] >= space.oldest]
-            self._actions.append((applied_at, request.apply))
-            self._actions.sort(key=lambda action: action[0])
+        return [self._event(foot, *pair) for pair in zip(requests, outcomes, strict=True)]
+
+    def _event(self, foot: str, request: Request, outcome: Outcome) -> Event:
         return Event(
             EventKind.CONSTRAINT,
-            self._stamp(request.epoch),
-            FEET[foot],
-            self._stamp(space.epoch),
+            self._past.stamp(request.epoch),
+            foot,
+            self._past.stamp(self.space.epoch),
             outcome.innovation,
             outcome.S,
             outcome.nis,
@@ -212,79 +256,20 @@ class Session:
             outcome.detail,
         )
 
-    # --- what methods may ask (constraints.method.Gait) -------------------------------------------
-
-    def in_stance(self, foot: int, epoch: int) -> bool:
-        """Return whether ``foot`` had zero velocity at ``epoch``."""
-        return bool((int(self.space.n[at.N_FLAGS + epoch % self.space.ring]) >> foot) & 1)
-
-    def remembers(self, epoch: int) -> bool:
-        """Return whether the filter can be rolled back to just after ``epoch``."""
-        return self.space.oldest <= epoch + 1 <= self.space.epoch
-
-    def positions_after(self, epoch: int) -> FloatArray:
-        """Return both feet's positions (2, 3) m as estimated at ``epoch``."""
-        state = self.space.snapshot(epoch + 1)
-        return np.array([state[f * at.FOOT + at.POS : f * at.FOOT + at.POS + 3] for f in (0, 1)])
-
-    def _stamp(self, epoch: int, default: int = 0) -> int:
-        space = self.space
-        if not space.epoch - space.ring < epoch <= space.epoch:
-            return default
-        return int(space.stamps[epoch % space.ring])
-
-    # --- heading and pose --------------------------------------------------------------------------
-
-    @property
-    def headed(self) -> bool:
-        """Whether both feet know their heading."""
-        return self._strides[0] is None and self._strides[1] is None
-
-    def _turn_to_first_strides(self, foot: int, direction: float, strides: FirstStrides) -> Event:
-        return self._turn(foot, self._forward - direction, strides.pivot, np.zeros(3))
-
-    def _turn(self, foot: int, yaw: float, pivot: FloatArray, shift: FloatArray) -> Event:
-        """Turn the present state and every snapshot; the event tells what to do to the rest."""
-        space, c, s = self.space, math.cos(yaw), math.sin(yaw)
-        for start in space.states():
-            self._engine.turn(space.w, start, foot, c, s, pivot, shift)
-        self._offsets[foot] = self._sensor_yaw(foot) - self._forward
-        now = self._stamp(space.epoch)
-        detail = {
-            "yaw": yaw,
-            "pivot": (float(pivot[0]), float(pivot[1]), 0.0),
-            "shift": tuple(float(v) for v in shift),
-        }
-        return Event(EventKind.HEADING, now, FEET[foot], now, detail=detail)
-
-    def _sensor_yaw(self, foot: int) -> float:
-        w, rotation = self.space.w, foot * at.FOOT + at.ROT
-        return math.atan2(w[rotation + 3], w[rotation])
-
-    def _update_heading(self, foot: int) -> None:
-        if self._strides[foot] is None and self.phase == "walking":
-            headings = list(self.headings)
-            headings[foot] = self._sensor_yaw(foot) - self._offsets[foot]
-            self.headings = (headings[0], headings[1])
+    # --- pose and gaps ----------------------------------------------------------------------------
 
     def can_set_pose(self) -> bool:
         """Return whether `set_pose` can be obeyed now: standing, or the heading is known."""
-        return self.phase == "standing" or self.headed
+        return self.phase == "standing" or self.headings.known
 
     def set_pose(self, stamp: int, position: FloatArray, yaw: float) -> Found:
         """Put the person at ``position`` (3,) m facing ``yaw``; return the turns of both tracks."""
         if self.phase == "standing":
-            self._origin, self._forward = position, yaw
-            self.headings = (yaw, yaw)
+            self._origin = position
+            self.headings.face(yaw)
             self._level()
             return []
-        feet = [self._estimate.position(foot) for foot in range(2)]
-        middle = 0.5 * (feet[0] + feet[1])
-        a, b = self.headings
-        turn = yaw - math.atan2(math.sin(a) + math.sin(b), math.cos(a) + math.cos(b))
-        offsets = list(self._offsets)
-        found = [self._turn(foot, turn, middle, position - middle) for foot in range(2)]
-        self._offsets, self.headings = offsets, (a + turn, b + turn)
+        found = self.headings.set_pose(self._engine, position, yaw, stamp)
         self._actions.clear()
         self.space.n[at.N_OLDEST] = self.space.epoch + 1
         return found
@@ -292,7 +277,7 @@ class Session:
     def bridge(self, gap_s: float) -> Found:
         """Get over a gap in the data: nothing is known of what the feet did meanwhile."""
         space = self.space
-        last = self._stamp(space.epoch)
+        last = self._past.stamp(space.epoch)
         found = [
             Event(EventKind.STANCE_END, last, FEET[foot], last)
             for foot in range(2)

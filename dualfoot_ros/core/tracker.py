@@ -169,7 +169,7 @@ class DualFootTracker:
             row=row,
             events=(*events, *found),
             space=session.space,
-            headings=session.headings,
+            heading=session.headings.mean,
         )
 
     def _apply_pose(self, session: Session, stamp: int) -> list[Event]:

@@ -80,7 +80,7 @@ class Update:
     While the phase is "aligning" there is no estimate and ``left`` and ``right`` are None.
     """
 
-    __slots__ = ("_headings", "_joint", "_noted", "phase", "refused", "row", "stamp_ns")
+    __slots__ = ("_heading", "_joint", "_noted", "phase", "refused", "row", "stamp_ns")
 
     def __init__(
         self,
@@ -91,11 +91,11 @@ class Update:
         row: FloatArray | None = None,
         events: tuple[Event, ...] = (),
         space: Workspace | None = None,
-        headings: tuple[float, float] = (0.0, 0.0),
+        heading: float = 0.0,
     ) -> None:
         """Keep what was computed; covariances are copied only when asked for within the epoch."""
         self.stamp_ns, self.phase, self.refused, self.row = stamp_ns, phase, refused, row
-        self._noted, self._joint, self._headings = events, space, headings
+        self._noted, self._joint, self._heading = events, space, heading
 
     @property
     def events(self) -> tuple[Event, ...]:
@@ -141,12 +141,10 @@ class Update:
         pose = [at.E_POS, at.E_POS + 1, at.E_POS + 2, at.E_ATT, at.E_ATT + 1, at.E_ATT + 2]
         for i, state in enumerate(pose):
             mean[i, state] = mean[i, 15 + state] = 0.5
-        a, b = self._headings
-        heading = math.atan2(math.sin(a) + math.sin(b), math.cos(a) + math.cos(b))
         return PedestrianEstimate(
             0.5 * (left[at.O_POS : at.O_POS + 3] + right[at.O_POS : at.O_POS + 3]),
             0.5 * (left[at.O_VEL : at.O_VEL + 3] + right[at.O_VEL : at.O_VEL + 3]),
-            heading,
+            self._heading,
             mean @ joint @ mean.T,
         )
 

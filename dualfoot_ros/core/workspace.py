@@ -41,6 +41,7 @@ class Workspace:
         w[at.C_GLRT_FORCE] = 1.0 / stance.force_std**2
         w[at.C_GLRT_RATE] = 1.0 / stance.gyro_std**2
         w[at.C_GLRT_THRESHOLD] = stance.threshold
+        w[at.C_WATCH] = math.inf
         n[at.N_RING] = self.ring
         n[at.N_EPOCH] = -1
         n[at.N_WINDOW] = min(self.ring, max(2, round(stance.window * self.rate_hz)))

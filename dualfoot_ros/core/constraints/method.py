@@ -1,8 +1,9 @@
-"""What a constraint method is: it is told of each stance and may ask for one constraint."""
+"""What a constraint method is: it is told what the gait does and may ask for constraints."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -12,10 +13,12 @@ from ..series import FloatArray
 
 @dataclass(frozen=True)
 class StancePhase:
-    """A stance that has ended, in epochs of the tracker.
+    """A stance, in epochs of the tracker.
 
-    ``first`` and ``last`` bound the zero-velocity epochs, ``lag`` is by how many epochs the
-    detector's window ends after its middle, ``now`` the epoch at which the end became certain.
+    ``first`` and ``last`` bound the zero-velocity epochs (``last`` is ``now`` while it lasts),
+    ``lag`` is by how many epochs the detector's window ends after its middle, ``now`` is the
+    newest epoch, ``heading`` (rad) the direction the person faces: the mean of both feet's last
+    stances.
     """
 
     foot: int
@@ -24,16 +27,16 @@ class StancePhase:
     lag: float
     now: int
     period_s: float
+    heading: float
 
     @property
     def duration_s(self) -> float:
         """Length of the stance."""
         return (self.last - self.first + 1) * self.period_s
 
-    def moment(self, kappa: float) -> int:
-        """Return the epoch of the minimum-distance moment, eq. (31) of Liu et al. 2023."""
-        middle = (1.0 - kappa) * self.first + kappa * self.last - self.lag
-        return round(middle)
+    def moment(self, share: float) -> int:
+        """Return the epoch at a share of the stance: eq. (31) of Liu et al. 2023 for kappa."""
+        return round((1.0 - share) * self.first + share * self.last - self.lag)
 
 
 @dataclass(frozen=True)
@@ -50,7 +53,15 @@ class Request:
 
 
 class Gait(Protocol):
-    """What a method may ask the tracker about the past."""
+    """What a method may ask the tracker about now and the recent past."""
+
+    @property
+    def now(self) -> int:
+        """Newest epoch."""
+
+    @property
+    def period_s(self) -> float:
+        """Nominal length of an epoch."""
 
     def in_stance(self, foot: int, epoch: int) -> bool:
         """Return whether ``foot`` had zero velocity at ``epoch``."""
@@ -58,16 +69,36 @@ class Gait(Protocol):
     def positions_after(self, epoch: int) -> FloatArray:
         """Return both feet's positions (2, 3) m as estimated at ``epoch``."""
 
+    def sample(self, foot: int, epoch: int) -> FloatArray:
+        """Return specific force and bias-free angular rate (6,) of ``foot`` at ``epoch``."""
+
+    def last_stance_end(self, foot: int) -> int:
+        """Return the last epoch of the last stance of ``foot`` that has ended, -1 for none."""
+
     def remembers(self, epoch: int) -> bool:
         """Return whether the filter can be rolled back to just after ``epoch``."""
 
 
-class Method(Protocol):
-    """A constraint method; see the modules beside this one."""
+class Method:
+    """Base of the methods: asks for nothing.
 
-    @property
-    def memory_s(self) -> float:
-        """How far back a constraint may reach from the end of a stance, s."""
+    ``memory_s`` is how far back its requests may reach; ``watch_m`` the distance of the feet
+    beyond which ``on_epoch`` is called (infinity: never, below zero: at every epoch);
+    ``lever_arm`` (3,) m places the second sensor relative to the first where both are on one shoe.
+    """
 
-    def on_stance_end(self, stance: StancePhase, gait: Gait) -> Request | None:
-        """Return the constraint that follows from a stance that has ended, if any."""
+    memory_s: float = 0.0
+    watch_m: float = math.inf
+    lever_arm: FloatArray | None = None
+
+    def on_stance_start(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
+        """Return what follows from a stance that has been confirmed."""
+        return ()
+
+    def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
+        """Return what follows from a stance that has ended."""
+        return ()
+
+    def on_epoch(self, gait: Gait) -> Sequence[Request]:
+        """Return what is to be applied now, the feet being farther apart than ``watch_m``."""
+        return ()

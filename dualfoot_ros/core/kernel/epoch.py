@@ -10,6 +10,7 @@ import math
 from .covariance import propagate_foot
 from .detector import detect
 from .layout import (
+    C_WATCH,
     FOOT,
     N_EPOCH,
     N_FLAGS,
@@ -17,6 +18,7 @@ from .layout import (
     N_OLDEST,
     N_RING,
     NOTICE_SHIFT,
+    NOTICE_WATCH,
     O_COV_ATT,
     O_COV_POS,
     O_COV_VEL,
@@ -124,10 +126,20 @@ def advance(w, n, dts, samples, start, stop, out):
         n[N_FLAGS + i] = flags
         n[N_NOTICE] = left_notice | (right_notice << NOTICE_SHIFT)
         filter_epoch(w, n, epoch)
+        if squared_distance(w) > w[C_WATCH]:
+            n[N_NOTICE] = n[N_NOTICE] | NOTICE_WATCH
         emit(w, n, out, k)
         if n[N_NOTICE] != 0:
             return k + 1
     return stop
+
+
+def squared_distance(w):
+    """Return the squared distance of the feet, m^2."""
+    x = w[POS] - w[FOOT + POS]
+    y = w[POS + 1] - w[FOOT + POS + 1]
+    z = w[POS + 2] - w[FOOT + POS + 2]
+    return x * x + y * y + z * z
 
 
 def emit(w, n, out, k):

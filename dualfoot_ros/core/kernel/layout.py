@@ -38,6 +38,7 @@ C_ZUPT_RATE_VAR = C_GRAVITY + 7  # (m/s per rad/s)^2
 C_GLRT_FORCE = C_GRAVITY + 8  # 1 / sigma_a^2
 C_GLRT_RATE = C_GRAVITY + 9  # 1 / sigma_w^2
 C_GLRT_THRESHOLD = C_GRAVITY + 10
+C_WATCH = C_GRAVITY + 11  # squared distance of the feet beyond which a method wants to know, m^2
 C_FOOT = C_GRAVITY + 16  # then per foot:
 C_STRIDE = 8
 C_LEVER = 0  # sensor to pivot of the foot, body frame, m
@@ -88,6 +89,7 @@ SWING, LANDING, STANCE, LEAVING = 0, 1, 2, 3
 # notices; the right foot's are shifted by NOTICE_SHIFT
 STANCE_FALSE, STANCE_CONFIRMED, SWING_FALSE, STANCE_ENDED = 1, 2, 4, 8
 NOTICE_SHIFT = 4
+NOTICE_WATCH = 256  # the feet are farther apart than the method allows
 
 # --- output row --------------------------------------------------------------------------------------
 O_FOOT = 45  # stride from left to right

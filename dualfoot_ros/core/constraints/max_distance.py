@@ -1,0 +1,68 @@
+"""``max_distance``: the classical upper bound on the distance of the feet.
+
+Skog et al. 2012, as in Liu et al. 2023 ("MaxDist"): when the estimated distance exceeds the bound
+and enough time has passed since the last constraint, the joint state is projected onto it (the
+exact constrained least squares of ``idc``, with the bound in place of c0).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..estimate import JointEstimate, Outcome, relative_row
+from ..parameters import Parameters, parameter
+from .distance import exact, norm, quadratic
+from .method import Gait, Request
+from .method import Method as Base
+
+
+@dataclass(frozen=True)
+class Config(Parameters):
+    """Parameters of the maximum-distance constraint."""
+
+    bound: float = parameter(
+        0.9, "largest distance of the two sensors", unit="m", minimum=0.1, maximum=3.0
+    )
+    bound_std: float = parameter(
+        0.05, "uncertainty of the bound (0: hard)", unit="m", minimum=0.0, maximum=1.0
+    )
+    interval: float = parameter(
+        0.5, "least time between two constraints", unit="s", minimum=0.0, maximum=10.0
+    )
+
+
+class Method(Base):
+    """Projects onto the bound when it is exceeded."""
+
+    def __init__(self, config: Config) -> None:
+        """Use ``config``."""
+        self.config = config
+        self.watch_m = config.bound
+        self._last: int | None = None
+
+    def on_epoch(self, gait: Gait) -> Sequence[Request]:
+        """Return a projection unless the last one is too recent."""
+        since = None if self._last is None else (gait.now - self._last) * gait.period_s
+        if since is not None and since < self.config.interval:
+            return ()
+        self._last = gait.now
+        return (Request(gait.now, False, self.apply),)
+
+    def apply(self, estimate: JointEstimate) -> Outcome:
+        """Project the joint state onto |r| = bound."""
+        bound, std = self.config.bound, self.config.bound_std
+        r, p = estimate.relative_position(), estimate.relative_covariance()
+        distance = norm(r)
+        variance = quadratic(r, p) / distance**2
+        s, error = variance + std * std, distance - bound
+        detail = {"distance": distance, "target": bound}
+        accepted = error > 0.0 and variance > 1e-12
+        if accepted:
+            direction, push, noise = exact(r, p, bound, std)
+            estimate.update([relative_row(direction)], [push], [noise])
+            detail["distance_after"] = norm(estimate.relative_position())
+        nis = error * error / s if s > 0.0 else float("nan")
+        return Outcome(np.array([error]), np.array([[s]]), nis, accepted, detail)

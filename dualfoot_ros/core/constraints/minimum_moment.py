@@ -1,0 +1,97 @@
+"""The minimum-distance moment (MDMD) of Liu et al. 2023, section IV-C, for the methods that use it.
+
+When a stance of one foot has ended and the other foot was swinging past it, the feet were closest
+at t_min = (1 - kappa) t_fst + kappa t_end, eq. (31).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..estimate import JointEstimate, Outcome
+from ..parameters import Parameters, parameter
+from .distance import Matrix, Vector, norm, quadratic
+from .method import Gait, Method, Request, StancePhase
+
+
+@dataclass(frozen=True)
+class MomentParameters(Parameters):
+    """What every method at the minimum-distance moment has in common."""
+
+    distance: float = parameter(
+        0.15, "minimum distance c0 of the two sensors", unit="m", minimum=0.01, maximum=1.0
+    )
+    distance_std: float = parameter(
+        0.1,
+        "scatter of that distance (0: a hard constraint, as idc has it in the paper)",
+        unit="m",
+        minimum=0.0,
+        maximum=1.0,
+    )
+    kappa: float = parameter(
+        0.55, "minimum-distance moment as a share of the stance", minimum=0.0, maximum=1.0
+    )
+    apply_at: str = parameter(
+        "moment",
+        "at the moment itself (roll back, apply, re-run) or when it is detected",
+        choices=("moment", "detection"),
+    )
+    max_stance: float = parameter(
+        1.2, "a longer stance is no step", unit="s", minimum=0.2, maximum=3.0
+    )
+
+
+class AtMinimumDistance(Method):
+    """Asks for one constraint at the minimum-distance moment of every stance of a walk."""
+
+    def __init__(self, config: MomentParameters) -> None:
+        """Use ``config``."""
+        self.config = config
+        self.memory_s = (1.0 - config.kappa) * config.max_stance
+
+    def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
+        """Return the constraint at the minimum-distance moment of ``stance``, if it is a step."""
+        moment = self.moment(stance, gait)
+        if moment is None:
+            return ()
+        if self.config.apply_at == "moment":
+            return (Request(moment, True, self.apply),)
+        left, right = gait.positions_after(moment)
+        separation = [float(x) for x in left - right]
+        return (Request(moment, False, lambda estimate: self.apply(estimate, separation)),)
+
+    def moment(self, stance: StancePhase, gait: Gait) -> int | None:
+        """Return the epoch of the minimum distance, None when the stance is no step."""
+        moment = stance.moment(self.config.kappa)
+        if stance.duration_s > self.config.max_stance or not gait.remembers(moment):
+            return None
+        return None if gait.in_stance(1 - stance.foot, moment) else moment
+
+    def apply(self, estimate: JointEstimate, separation: Vector | None = None) -> Outcome:
+        """Constrain the distance if it exceeds c0; ``separation`` is r at an earlier moment."""
+        config = self.config
+        r = separation or estimate.relative_position()
+        p = estimate.relative_covariance()
+        distance = norm(r)
+        variance = quadratic(r, p) / distance**2 if distance > 0.0 else 0.0
+        s = variance + config.distance_std**2
+        error = distance - config.distance
+        nis = error * error / s if s > 0.0 else math.nan
+        detail: dict[str, float | str] = {"distance": distance, "target": config.distance}
+        accepted = error > 0.0 and variance > 1e-12
+        if accepted:
+            self.correct(estimate, r, p)
+            detail["distance_after"] = norm(estimate.relative_position())
+        elif error <= 0.0:
+            detail["reason"] = "distance within c0"
+        else:
+            detail["reason"] = "no uncertainty"
+        return Outcome(np.array([error]), np.array([[s]]), nis, accepted, detail)
+
+    def correct(self, estimate: JointEstimate, r: Vector, p: Matrix) -> None:
+        """Bring ``estimate`` to the distance; ``r`` (3,) is the separation, ``p`` its covariance."""
+        raise AssertionError(f"{type(self).__name__} says what a constraint does")

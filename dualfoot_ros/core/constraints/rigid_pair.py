@@ -1,0 +1,109 @@
+"""``rigid_pair``: two sensors on one shoe, a constant lever arm apart.
+
+Chen et al. 2022: "left" is the first sensor, "right" the second.  In swing and stance alike
+
+    r_2 - r_1 = R_1 m                  eq. (12)
+    v_2 - v_1 = R_1 (omega x m)        eq. (13)
+
+with m the lever arm in the first sensor's body frame and omega the mean of what both sensors
+measure.  The paper's linear Kalman filter, eqs (16)-(22), has positions and velocities as its
+states and takes attitude from the gyros as it is; that filter is this one with no uncertainty in
+attitude and biases, which is what ``chen2022.yaml`` sets.  With that uncertainty the rows also
+carry the attitude and gyro bias of the first sensor.  (Eq. (21) of the paper misses the inverse of
+the innovation covariance.)  The paper gives m = (0.01, 0.01, 0) m right-front-up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..estimate import JointEstimate, Outcome, Row
+from ..parameters import Parameters, parameter
+from ..series import FloatArray
+from .method import Gait, Request
+from .method import Method as Base
+
+
+@dataclass(frozen=True)
+class Config(Parameters):
+    """Parameters of the rigid pair."""
+
+    lever_arm: tuple[float, float, float] = parameter(
+        (0.01, -0.01, 0.0),
+        "second sensor from the first, in the first's body frame (forward-left-up)",
+        unit="m",
+        minimum=-0.5,
+        maximum=0.5,
+    )
+    position_std: float = parameter(
+        0.002, "noise of the position difference", unit="m", minimum=1e-5, maximum=1.0
+    )
+    velocity_std: float = parameter(
+        0.02, "noise of the velocity difference", unit="m/s", minimum=1e-5, maximum=1.0
+    )
+    every: int = parameter(1, "epochs from one constraint to the next", minimum=1, maximum=100)
+
+
+class Method(Base):
+    """Constrains both differences at every epoch."""
+
+    watch_m = -1.0
+
+    def __init__(self, config: Config) -> None:
+        """Use ``config``."""
+        self.config = config
+        self._arm = np.array(config.lever_arm)
+        self.lever_arm = self._arm
+
+    def on_epoch(self, gait: Gait) -> Sequence[Request]:
+        """Return the constraint of this epoch."""
+        if gait.now % self.config.every:
+            return ()
+        now = gait.now
+        return (Request(now, False, lambda estimate: self.apply(estimate, gait, now)),)
+
+    def apply(self, estimate: JointEstimate, gait: Gait, epoch: int) -> Outcome:
+        """Update with eq. (13), then with eq. (12)."""
+        rate = gait.sample(0, epoch)[3:]
+        rotation = estimate.rotation(0)
+        if self._same_axes(estimate):
+            rate = 0.5 * (rate + gait.sample(1, epoch)[3:])
+        moved = np.cross(rate, self._arm)
+        velocity = estimate.velocity(1) - estimate.velocity(0) - rotation @ moved
+        rows = difference_rows(3, rotation @ moved, rotation @ skew(self._arm))
+        estimate.update(rows, velocity.tolist(), [self.config.velocity_std**2] * 3)
+        arm = estimate.rotation(0) @ self._arm
+        position = estimate.position(1) - estimate.position(0) - arm
+        rows = difference_rows(0, arm, None)
+        s, nis = estimate.update(rows, position.tolist(), [self.config.position_std**2] * 3)
+        return Outcome(position, s, nis, True, {"velocity_innovation": velocity.tolist()})
+
+    def _same_axes(self, estimate: JointEstimate) -> bool:
+        """Return whether both sensors have the same axes, so that their rates can be averaged."""
+        relative = estimate.rotation(0).T @ estimate.rotation(1)
+        return float(np.trace(relative)) > 3.0 - 0.01
+
+
+def difference_rows(state: int, vector: FloatArray, bias: FloatArray | None) -> list[Row]:
+    """Return the rows of (second minus first) position or velocity minus R_1 times something.
+
+    ``state`` is 0 for position, 3 for velocity, ``vector`` (3,) the rotated thing, whose attitude
+    error is [vector x] phi, ``bias`` (3, 3) its derivative by the first sensor's gyro bias.
+    """
+    attitude = -skew(vector)
+    rows: list[Row] = []
+    for i in range(3):
+        row = {15 + state + i: 1.0, state + i: -1.0}
+        row.update({6 + j: float(attitude[i, j]) for j in range(3)})
+        if bias is not None:
+            row.update({9 + j: float(bias[i, j]) for j in range(3)})
+        rows.append(row)
+    return rows
+
+
+def skew(v: FloatArray) -> FloatArray:
+    """Return the matrix [v x]."""
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])

@@ -1,0 +1,106 @@
+"""``spacing_vector``: the vector between the feet when they are side by side (SVC).
+
+Ma and Särkkä 2023, III-C, eqs (5)-(9): at mid-stance, the swinging foot passing by, the right foot
+is 2a to the right of the left one, across the mean heading of the feet, eq. (7); the joint state
+is projected onto that (their "estimate projection").  The paper's frame has x to the right and y
+forward; here x is forward at heading psi = 0, so the vector from left to right is 2a (sin psi,
+-cos psi), and the right foot does come out on the right.  The heading of a foot is the yaw of its
+sensor less what that was on the first strides, so a sensor need not point forward.
+
+``variant: lateral`` keeps only the component across the heading: where along the way the swinging
+foot is at that moment is not known to centimetres, and the moment is not known exactly either.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..estimate import JointEstimate, Outcome, relative_row
+from ..parameters import Parameters, parameter
+from .method import Gait, Request, StancePhase
+from .method import Method as Base
+from .varying_distance import feet_adjacent
+
+
+@dataclass(frozen=True)
+class Config(Parameters):
+    """Parameters of the spacing vector constraint."""
+
+    spacing: float = parameter(
+        0.15, "lateral distance 2a of the two sensors", unit="m", minimum=0.0, maximum=1.0
+    )
+    spacing_std: float = parameter(
+        0.05,
+        "scatter of the spacing vector (0: hard projection)",
+        unit="m",
+        minimum=0.0,
+        maximum=1.0,
+    )
+    variant: str = parameter(
+        "vector",
+        "both horizontal components or the lateral one only",
+        choices=("vector", "lateral"),
+    )
+    moment: str = parameter(
+        "share",
+        "at a share of the stance or at the swinging foot's gyro peak",
+        choices=("share", "feet_adjacent"),
+    )
+    share: float = parameter(
+        0.5, "moment as a share of the stance (0.5: mid-stance)", minimum=0.0, maximum=1.0
+    )
+    max_stance: float = parameter(
+        1.2, "a longer stance is no step", unit="s", minimum=0.2, maximum=3.0
+    )
+
+
+class Method(Base):
+    """Asks for the spacing vector at the middle of every stance of a walk."""
+
+    def __init__(self, config: Config) -> None:
+        """Use ``config``."""
+        self.config = config
+        self.memory_s = config.max_stance
+
+    def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
+        """Return the constraint of a stance that was a step."""
+        other = 1 - stance.foot
+        if stance.duration_s > self.config.max_stance:
+            return ()
+        if self.config.moment == "share":
+            moment = stance.moment(self.config.share)
+        else:
+            swing = [
+                e for e in range(stance.first, stance.last + 1) if not gait.in_stance(other, e)
+            ]
+            if len(swing) < 4:
+                return ()
+            moment = feet_adjacent(gait, other, range(swing[0], swing[-1] + 1))
+        if not gait.remembers(moment) or gait.in_stance(other, moment):
+            return ()
+        return (Request(moment, True, lambda estimate: self.apply(estimate, stance.heading)),)
+
+    def apply(self, estimate: JointEstimate, heading: float) -> Outcome:
+        """Project onto eq. (9), or onto its component across ``heading`` (rad)."""
+        config = self.config
+        left = np.array([-math.sin(heading), math.cos(heading), 0.0])
+        r = np.array(estimate.relative_position())
+        if config.variant == "vector":
+            rows = [relative_row([1.0, 0.0, 0.0]), relative_row([0.0, 1.0, 0.0])]
+            innovation = (r - config.spacing * left)[:2]
+        else:
+            rows = [relative_row(left.tolist())]
+            innovation = np.array([float(r @ left) - config.spacing])
+        variances = [max(config.spacing_std**2, 1e-12)] * len(rows)
+        s, nis = estimate.update(rows, innovation.tolist(), variances)
+        detail = {
+            "distance": float(np.sqrt((r**2).sum())),
+            "target": config.spacing,
+            "lateral": float(r @ left),
+            "heading": heading,
+        }
+        return Outcome(innovation, s, nis, True, detail)

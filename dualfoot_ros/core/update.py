@@ -72,6 +72,7 @@ class PedestrianEstimate:
     velocity: FloatArray
     heading: float
     pose_covariance: FloatArray
+    velocity_covariance: FloatArray
 
 
 class Update:
@@ -137,10 +138,11 @@ class Update:
             return None
         left, right = self.row[: at.O_FOOT], self.row[at.O_FOOT : 2 * at.O_FOOT]
         joint = self._joint.covariance()
-        mean = np.zeros((6, 30))
-        pose = [at.E_POS, at.E_POS + 1, at.E_POS + 2, at.E_ATT, at.E_ATT + 1, at.E_ATT + 2]
-        for i, state in enumerate(pose):
-            mean[i, state] = mean[i, 15 + state] = 0.5
+        mean = np.zeros((9, 30))
+        for i, state in enumerate((at.E_POS, at.E_ATT, at.E_VEL)):
+            for axis in range(3):
+                mean[3 * i + axis, state + axis] = mean[3 * i + axis, 15 + state + axis] = 0.5
+        covariance = mean @ joint @ mean.T
         return PedestrianEstimate(
             0.5 * (left[at.O_POS : at.O_POS + 3] + right[at.O_POS : at.O_POS + 3]),
             0.5 * (left[at.O_VEL : at.O_VEL + 3] + right[at.O_VEL : at.O_VEL + 3]),

@@ -76,7 +76,7 @@ def sample_times(
     speed = float(1.0 + 1e-6 * config.drift)
     interval = 1.0 / (rate_hz * speed)
     count = int(np.floor(duration_s / interval - config.phase + 1e-9))
-    edges = interval * (config.phase + np.arange(count + 1))
+    edges: FloatArray = interval * (config.phase + np.arange(count + 1, dtype=np.float64))
     device = config.offset + speed * edges[1:] + config.jitter * rng.standard_normal(count)
     delay = config.delay + config.delay_tail * rng.exponential(size=count)
     arrival = edges[1:] + delay

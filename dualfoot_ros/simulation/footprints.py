@@ -11,7 +11,7 @@ from .config import WalkConfig
 from .errors import SimulationError
 from .routes import Route
 
-# Shares of the time between heel-off and flat foot (as seen on real walks, see docs/simulation.md).
+# Shares of the time from heel-off to flat foot, as seen on real walks (docs/simulation.md).
 TOE_OFF = 0.27
 HEEL_STRIKE = 0.84
 # The foot counts as standing from the last of the sole's slap to the first of the heel's rise:

@@ -225,5 +225,5 @@ class Walker:
 def _knots(end_s: float) -> tuple[FloatArray, FloatArray]:
     """Return the knots, and the abscissae of the control points (Greville), both in s."""
     count = int(np.ceil((end_s + 2.0 * MARGIN_S) / KNOT_S)) + 6
-    knots = -MARGIN_S + KNOT_S * (np.arange(count + 6) - 3.0)
+    knots: FloatArray = -MARGIN_S + KNOT_S * (np.arange(count + 6, dtype=np.float64) - 3.0)
     return knots, knots[3 : count + 3]

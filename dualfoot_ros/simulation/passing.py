@@ -1,4 +1,4 @@
-"""The moments at which one foot passes the other: found on the motion, and brought where wanted."""
+"""The moments at which one foot passes the other: found on the motion, and tuned."""
 
 from __future__ import annotations
 
@@ -31,6 +31,9 @@ class Passes:
     distance: FloatArray
     kappa: FloatArray
     standing_side: FloatArray
+
+
+NO_PASSES = Passes(np.empty(0), np.empty(0), np.empty(0), np.empty(0))
 
 
 @dataclass(frozen=True)
@@ -114,7 +117,7 @@ def passes(
 ) -> Passes:
     """Return the passes as they truly are: the least distance within each stance."""
     if len(plan.row) == 0:
-        return Passes(*(np.empty(0) for _ in range(4)))
+        return NO_PASSES
     lever = config.mount.lever_of
     time_s, distance = least(motions, lever(1), lever(-1), plan.start, plan.end, 161)
     kappa = (time_s - plan.start) / (plan.end - plan.start)

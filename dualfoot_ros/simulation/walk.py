@@ -12,7 +12,7 @@ from .clocks import ClockConfig, Sampling, sample_times
 from .config import WalkConfig
 from .footprints import Footprints, plan
 from .motion import ShoeMotion, Walker
-from .passing import Passes, pass_plan, passes, tune
+from .passing import NO_PASSES, Passes, pass_plan, passes, tune
 from .routes import Route, route
 from .sampling import interval_means
 from .sensors import SensorConfig, SensorErrors, draw_pair, measure
@@ -26,7 +26,7 @@ class Walk:
     """The motion of both shoes, before any sensor looks at it.
 
     ``levers`` (two of (3,) m) and ``mountings`` (two of (3, 3), sensor to shoe) say where the left
-    and the right sensor sit; ``shoes`` are the shoes they sit on.
+    and the right sensor sit, on ``shoes``, the feet ``sides`` (+1 left, -1 right).
     """
 
     config: WalkConfig
@@ -36,6 +36,7 @@ class Walk:
     levers: tuple[FloatArray, FloatArray]
     mountings: tuple[FloatArray, FloatArray]
     passes: Passes
+    sides: tuple[int, int] = SIDES
 
     @property
     def duration_s(self) -> float:
@@ -122,6 +123,8 @@ def rigid_pair(walked: Walk, separation: float = 0.014) -> Walk:
         shoes=(shoe, shoe),
         levers=(lever - half, lever + half),
         mountings=(mounting, mounting),
+        passes=NO_PASSES,
+        sides=(-1, -1),
     )
 
 
@@ -157,8 +160,8 @@ def simulate(
         right_truth=right_truth,
         left_arrival_ns=left_arrival,
         right_arrival_ns=right_arrival,
-        left_stances=nanoseconds(walked.footprints.stances_of(SIDES[0])),
-        right_stances=nanoseconds(walked.footprints.stances_of(SIDES[1])),
+        left_stances=nanoseconds(walked.footprints.stances_of(walked.sides[0])),
+        right_stances=nanoseconds(walked.footprints.stances_of(walked.sides[1])),
         moment_ns=nanoseconds(walked.passes.time_s),
         left_errors=errors[0],
         right_errors=errors[1],

@@ -2,7 +2,7 @@
 
 from .config import TrackerConfig
 from .errors import AlignmentError, ConfigError, DualFootError, SeriesError
-from .series import ImuPair, ImuSeries, PoseSeries
+from .series import ImuPair, ImuSeries, PoseSeries, PressureSeries
 from .tracker import DualFootTracker
 from .trajectory import Event, EventKind, FootTrajectory, Trajectory
 from .update import Update
@@ -18,6 +18,7 @@ __all__ = [
     "ImuPair",
     "ImuSeries",
     "PoseSeries",
+    "PressureSeries",
     "SeriesError",
     "Trajectory",
     "Update",

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, Self
 
+from .config_aids import Aids
 from .constraints import METHODS
 from .errors import ConfigError
 from .parameters import Parameters, ParameterSpec, parameter
@@ -154,6 +155,7 @@ GROUPS: dict[str, type[Parameters]] = {
     "initial": Initial,
     "stance": Stance,
     "zupt": Zupt,
+    "aids": Aids,
 }
 
 
@@ -169,6 +171,7 @@ class TrackerConfig(Parameters):
     initial: Initial = field(default_factory=Initial)
     stance: Stance = field(default_factory=Stance)
     zupt: Zupt = field(default_factory=Zupt)
+    aids: Aids = field(default_factory=Aids)
     methods: Mapping[str, Parameters] = field(default_factory=dict)
 
     @property

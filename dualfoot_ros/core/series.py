@@ -149,3 +149,21 @@ class PoseSeries:
     def __len__(self) -> int:
         """Return the number of poses."""
         return len(self.stamp_ns)
+
+
+@dataclass(frozen=True)
+class PressureSeries:
+    """Air pressure over time.
+
+    Attributes
+    ----------
+    stamp_ns : (N,) int64, of the same clock as the samples of the feet
+    pressure : (N,) Pa
+    """
+
+    stamp_ns: IntArray
+    pressure: FloatArray
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.stamp_ns)

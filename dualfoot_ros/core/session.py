@@ -32,15 +32,21 @@ class Session:
     """The tracking of two feet from one alignment on."""
 
     def __init__(
-        self, config: TrackerConfig, engine: Engine, still: Standstill, rate_hz: float
+        self,
+        config: TrackerConfig,
+        engine: Engine,
+        still: Standstill,
+        rate_hz: float,
+        aids: Sequence[Method] = (),
     ) -> None:
-        """Level both feet from ``still``."""
+        """Level both feet from ``still``; ``aids`` are asked as the method is."""
         module = METHODS[config.method]
         known = hasattr(module, "Method")
         self._method: Method = module.Method(config.constraint) if known else Method()
         stance = config.stance
         memory = stance.min_stance + stance.min_swing + stance.window + 0.1
         memory += self._method.memory_s
+        self._aids = aids
         self.rate_hz = rate_hz
         self.space = Workspace(config, rate_hz, memory)
         self.phase = "standing"
@@ -210,10 +216,14 @@ class Session:
             turned += self._join_pair(now)
             self._watch()
         found += turned
-        if self.headings.known:
-            phase = self._phase(foot, self.space.epoch)
-            found += self._constrain(FEET[foot], self._method.on_stance_start(phase, self._past))
+        phase = self._phase(foot, self.space.epoch)
+        for method in self._askable():
+            found += self._constrain(FEET[foot], method.on_stance_start(phase, self._past))
         return found
+
+    def _askable(self) -> list[Method]:
+        """Return the aids, and the method once the heading is known."""
+        return [*self._aids, self._method] if self.headings.known else list(self._aids)
 
     def _stance_ended(self, foot: int) -> Found:
         last = self.space.foot(foot, "N_LEAVE") - 1
@@ -221,9 +231,9 @@ class Session:
         found = [Event(EventKind.STANCE_END, self._past.stamp(last, now), FEET[foot], now)]
         self.phase = "walking"
         self._past.ended[foot] = last
-        if self.headings.known:
-            phase = self._phase(foot, last)
-            found += self._constrain(FEET[foot], self._method.on_stance_end(phase, self._past))
+        phase = self._phase(foot, last)
+        for method in self._askable():
+            found += self._constrain(FEET[foot], method.on_stance_end(phase, self._past))
         return found
 
     def _constrain(self, foot: str, requests: Sequence[Request]) -> Found:
@@ -245,7 +255,7 @@ class Session:
 
     def _event(self, foot: str, request: Request, outcome: Outcome) -> Event:
         return Event(
-            EventKind.CONSTRAINT,
+            request.kind,
             self._past.stamp(request.epoch),
             foot,
             self._past.stamp(self.space.epoch),
@@ -265,11 +275,16 @@ class Session:
     def set_pose(self, stamp: int, position: FloatArray, yaw: float) -> Found:
         """Put the person at ``position`` (3,) m facing ``yaw``; return the turns of both tracks."""
         if self.phase == "standing":
+            up_m = float(position[2] - self._origin[2])
             self._origin = position
             self.headings.face(yaw)
             self._level()
-            return []
-        found = self.headings.set_pose(self._engine, position, yaw, stamp)
+            found: Found = []
+        else:
+            found = self.headings.set_pose(self._engine, position, yaw, stamp)
+            up_m = found[0].detail["shift"][2]
+        for aid in self._aids:
+            aid.shifted(up_m)
         self._actions.clear()
         self.space.n[at.N_OLDEST] = self.space.epoch + 1
         return found

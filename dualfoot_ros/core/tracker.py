@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from .aids import Barometer, FlatFloor
 from .alignment import Standstill
 from .config import TrackerConfig
+from .constraints.method import Method
 from .errors import AlignmentError, ConfigError
 from .kernel import BackgroundEngine, Engine, compiled, interpreted
 from .kernel import layout as at
 from .rows import to_trajectory, turn_rows
-from .series import FloatArray, ImuPair, ImuSeries, IntArray, stack_pairs
+from .series import FloatArray, ImuPair, ImuSeries, IntArray, PressureSeries, stack_pairs
 from .session import Session
-from .trajectory import Event, EventKind, Trajectory
+from .trajectory import FEET, Event, EventKind, Trajectory
 from .update import Update
 
 LIMIT = 500.0  # m/s^2 and rad/s; no foot-mounted sensor reads more
@@ -55,6 +57,11 @@ class DualFootTracker:
         self._last_ns: int | None = None
         self._early: list[tuple[int, FloatArray]] = []
         self._pending: list[Event] = []
+        aids = self.config.aids
+        self._barometer = Barometer(aids) if aids.barometer else None
+        self._aids: list[Method] = [FlatFloor(aids)] if aids.flat_floor else []
+        if self._barometer is not None:
+            self._aids.append(self._barometer)
 
     @property
     def engine(self) -> str:
@@ -102,6 +109,22 @@ class DualFootTracker:
             self._align(stamp, values)
             return Update(stamp, "aligning", events=self._take_pending())
         return self._track(self._session, stamp, dt_ns, values)
+
+    def add_pressure(self, foot: str, stamp_ns: int, pascal: float) -> str | None:
+        """Take air pressure (Pa) of "left", "right" or "both"; return why not, if refused.
+
+        It is used when ``aids.barometer`` is on; the stamp is of the clock of the pairs.
+        """
+        if self._barometer is None or not 1e4 < pascal < 2e5:
+            reason = "pressure_unused" if self._barometer is None else "pressure_out_of_range"
+            self.counters[reason] += 1
+            return reason
+        for i, name in enumerate(FEET):
+            if foot in (name, "both") and not self._barometer.add(i, int(stamp_ns), pascal):
+                self.counters["pressure_out_of_order"] += 1
+                return "pressure_out_of_order"
+        self.counters["pressures"] += 1
+        return None
 
     def _refusal(self, stamp: int, values: FloatArray) -> str | None:
         for value in values.tolist():
@@ -152,7 +175,7 @@ class DualFootTracker:
         completed = still.add(values)
         self.counters["alignment_restarts"] = still.restarts
         if completed and still.ready and self._session is None:
-            self._session = Session(self.config, self._engine, still, self._rate_hz)
+            self._session = Session(self.config, self._engine, still, self._rate_hz, self._aids)
             self._pending.append(self._session.aligned_event(stamp))
 
     def _track(self, session: Session, stamp: int, dt_ns: int, values: FloatArray) -> Update:
@@ -178,8 +201,15 @@ class DualFootTracker:
         (position, yaw), self._pose = self._pose, None
         return session.set_pose(stamp, position, yaw)
 
-    def run(self, left: ImuSeries, right: ImuSeries) -> Trajectory:
+    def run(
+        self,
+        left: ImuSeries,
+        right: ImuSeries,
+        pressure: Mapping[str, PressureSeries] | None = None,
+    ) -> Trajectory:
         """Track two series with equal stamps; the same bits as `add`, one by one.
+
+        ``pressure`` is air pressure by "left", "right" or "both", for the barometer aid.
 
         Raises
         ------
@@ -192,6 +222,9 @@ class DualFootTracker:
         if self._background is not None:
             engine = self._background.wait()
             self._use(engine if engine is not None else self._engine)
+        for foot, series in (pressure or {}).items():
+            for stamp, pascal in zip(series.stamp_ns, series.pressure, strict=True):
+                self.add_pressure(foot, int(stamp), float(pascal))
         stamps, rows, events = self._run(left.stamp_ns, values)
         if self._session is None:
             raise AlignmentError(self._no_standstill(left))

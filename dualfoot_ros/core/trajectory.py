@@ -22,6 +22,7 @@ class EventKind(str, Enum):
     STANCE_END = "stance_end"
     ZUPT = "zupt"
     CONSTRAINT = "constraint"
+    AID = "aid"
     HEADING = "heading"
     RESET = "reset"
 

@@ -147,7 +147,8 @@ class Update:
             0.5 * (left[at.O_POS : at.O_POS + 3] + right[at.O_POS : at.O_POS + 3]),
             0.5 * (left[at.O_VEL : at.O_VEL + 3] + right[at.O_VEL : at.O_VEL + 3]),
             self._heading,
-            mean @ joint @ mean.T,
+            covariance[:6, :6],
+            covariance[6:, 6:],
         )
 
 

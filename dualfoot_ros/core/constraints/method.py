@@ -9,6 +9,7 @@ from typing import Protocol
 
 from ..estimate import JointEstimate, Outcome
 from ..series import FloatArray
+from ..trajectory import EventKind
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,7 @@ class Request:
     epoch: int
     roll_back: bool
     apply: Callable[[JointEstimate], Outcome]
+    kind: EventKind = EventKind.CONSTRAINT
 
 
 class Gait(Protocol):
@@ -78,6 +80,9 @@ class Gait(Protocol):
     def remembers(self, epoch: int) -> bool:
         """Return whether the filter can be rolled back to just after ``epoch``."""
 
+    def stamp(self, epoch: int, default: int = 0) -> int:
+        """Return the stamp in ns of ``epoch``, or ``default`` when it is forgotten."""
+
 
 class Method:
     """Base of the methods: asks for nothing.
@@ -102,3 +107,6 @@ class Method:
     def on_epoch(self, gait: Gait) -> Sequence[Request]:
         """Return what is to be applied now, the feet being farther apart than ``watch_m``."""
         return ()
+
+    def shifted(self, up_m: float) -> None:
+        """Take note that the whole track was moved up by ``up_m`` m."""

@@ -1,0 +1,68 @@
+"""``flat_floor``: a standing foot is on the floor, and stays where it is.
+
+Ma and Särkkä 2023, II-B: during the stance the height is zero and the horizontal position does not
+change.  Their pseudo-measurement at every sample claims the same centimetre over and over; here
+each stance gives it once: the height when the stance is confirmed, and at its end the horizontal
+position it had then.  For level ground only: on stairs it is wrong, and off by default.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..config_aids import Aids
+from ..constraints.method import Gait, Method, Request, StancePhase
+from ..estimate import JointEstimate, Outcome
+from ..series import FloatArray
+from ..trajectory import EventKind
+
+
+class FlatFloor(Method):
+    """Observes the floor's height and a standing foot's place."""
+
+    def __init__(self, config: Aids) -> None:
+        """Use ``config.floor_std`` and ``config.static_std``."""
+        self._config = config
+        self._stood: list[FloatArray | None] = [None, None]
+        self._floor_m = 0.0
+
+    def on_stance_start(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
+        """Return the height of the floor, now."""
+
+        def apply(estimate: JointEstimate) -> Outcome:
+            outcome = self._height(estimate, stance.foot)
+            self._stood[stance.foot] = estimate.position(stance.foot)
+            return outcome
+
+        return (Request(gait.now, False, apply, EventKind.AID),)
+
+    def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
+        """Return the place the foot stood at, at the end of the stance."""
+        stood, self._stood[stance.foot] = self._stood[stance.foot], None
+        if stood is None or not gait.remembers(stance.last):
+            return ()
+        place = stood
+
+        def apply(estimate: JointEstimate) -> Outcome:
+            return self._place(estimate, stance.foot, place)
+
+        return (Request(stance.last, True, apply, EventKind.AID),)
+
+    def _height(self, estimate: JointEstimate, foot: int) -> Outcome:
+        innovation = estimate.position(foot)[2:] - self._floor_m
+        rows = [{15 * foot + 2: 1.0}]
+        s, nis = estimate.update(rows, innovation.tolist(), [self._config.floor_std**2])
+        return Outcome(innovation, s, nis, True, {"aid": "flat_floor", "what": "height"})
+
+    def _place(self, estimate: JointEstimate, foot: int, place: FloatArray) -> Outcome:
+        innovation = (estimate.position(foot) - place)[:2]
+        rows = [{15 * foot: 1.0}, {15 * foot + 1: 1.0}]
+        s, nis = estimate.update(rows, innovation.tolist(), [self._config.static_std**2] * 2)
+        return Outcome(innovation, s, nis, True, {"aid": "flat_floor", "what": "place"})
+
+    def shifted(self, up_m: float) -> None:
+        """Move the floor with the track."""
+        self._floor_m += up_m
+        self._stood = [None, None]

@@ -30,6 +30,7 @@ from .feet import FeetReport, feet_report
 from .frames import Align, YawTransform
 from .heading import HeadingErrors, heading_errors
 from .markers import MarkerErrors, marker_errors
+from .notes import marker_notes, refusal_notes
 from .plain import plain
 
 
@@ -57,6 +58,7 @@ class Evaluation:
     markers : foot -> (K, 3) m, the floor markers it stood on; may be empty
     options, transforms : what aligned it (no transforms without a reference)
     aligned_to : "truth", "markers" or None
+    notes : sentences on what a reader of the figures should know
     closed_loop : the reference says that each foot ends where it started
     """
 
@@ -71,7 +73,7 @@ class Evaluation:
     closure: Closure | None
     closed_loop: bool
     feet: FeetReport
-    notes: tuple[str, ...] = ()
+    notes: tuple[str, ...]
 
     @property
     def feet_tracks(self) -> dict[str, FootTrajectory]:
@@ -127,7 +129,6 @@ def evaluate(
     truth: Truth | None = None,
     reference: Reference | None = None,
     options: Options | None = None,
-    notes: tuple[str, ...] = (),
 ) -> Evaluation:
     """Evaluate a trajectory against truth, floor markers, or only itself.
 
@@ -145,6 +146,7 @@ def evaluate(
         trajectory, truth = overlap(trajectory, truth)
     transforms, aligned_to = find_transforms(trajectory, truth, markers, options)
     moved = apply_transforms(trajectory, transforms)
+    marker_report = _against_markers(trajectory, markers, options)
     return Evaluation(
         trajectory=moved,
         truth=truth,
@@ -153,11 +155,11 @@ def evaluate(
         transforms=transforms,
         aligned_to=aligned_to,
         truth_report=None if truth is None else _against_truth(moved, truth),
-        marker_report=_against_markers(trajectory, markers, options),
+        marker_report=marker_report,
         closure=closure(trajectory.left, trajectory.right, length),
         closed_loop=reference is not None and reference.closed_loop,
         feet=_feet(moved, truth),
-        notes=notes,
+        notes=(*refusal_notes(trajectory.counters), *marker_notes(marker_report)),
     )
 
 

@@ -123,8 +123,8 @@ def first_strides(
         from_r.append((r - r[0])[:first])
     if not any(np.abs(r[:, :2]).max() > 0.1 for r in from_r):
         raise EvaluationError(
-            f"no stride within the first {length:g} m of the reference, so it does not show a "
-            "heading; align with umeyama4"
+            f"no stride within the first {length:g} m of the tracked walk, so nothing shows its "
+            "heading for first_strides; align with umeyama4"
         )
     yaw = _best_yaw(np.vstack(from_e), np.vstack(from_r))
     start_e = np.mean([e[0] for e in estimate], axis=0)

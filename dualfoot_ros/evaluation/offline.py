@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..core import DualFootTracker, TrackerConfig, Trajectory
 from ..core.series import ImuSeries
-from ..core.trajectory import FEET
+from ..core.trajectory import FEET, stance_middles
 from ..recording.recording import Recording
-from ..timing import align
+from ..timing import align_with_report
 from .align import Truth
 from .errors import EvaluationError
 
@@ -14,15 +16,38 @@ from .errors import EvaluationError
 def track(recording: Recording, config: TrackerConfig | None = None) -> Trajectory:
     """Bring both sensors of a recording on one time grid and track them.
 
+    The counters of the time alignment join those of the tracker under ``sync.``.
+
     Raises
     ------
     EvaluationError
-        When a foot is missing or has no samples.
+        When a foot is missing or has no samples, the feet share no time, or nobody walked after
+        the first standstill.
     DualFootError
-        What time alignment and tracker refuse: no overlap, no standstill.
+        What time alignment and tracker refuse: two recordings in one, no standstill.
     """
-    left, right = align(_samples(recording, "left"), _samples(recording, "right"))
-    return DualFootTracker(config).run(left, right)
+    samples = _samples(recording, "left"), _samples(recording, "right")
+    left, right, report = align_with_report(*samples)
+    if len(left) == 0:
+        raise EvaluationError(
+            f"the feet share no time (overlap {report.overlap_s:.1f} s), so there are no pairs of "
+            "samples; were both recorded together, and are their clocks synchronised?"
+        )
+    found = DualFootTracker(config).run(left, right)
+    _check_walked(found, left)
+    prepared = {f"sync.{name}": count for name, count in report.counters.items()}
+    return replace(found, counters={**prepared, **found.counters})
+
+
+def _check_walked(found: Trajectory, samples: ImuSeries) -> None:
+    """Refuse a recording whose only standstill comes after the walk."""
+    late_s = (found.start_ns - int(samples.stamp_ns[0])) * 1e-9
+    strides = max(len(stance_middles(foot.stance)) for foot in (found.left, found.right)) - 1
+    if strides < 1 and late_s > 0.5 * samples.duration_s:
+        raise EvaluationError(
+            f"the first standstill ends {late_s:.1f} s into the {samples.duration_s:.1f} s of the "
+            "recording and nobody walked after it; stand still with both feet before walking"
+        )
 
 
 def truth_of(recording: Recording) -> Truth | None:

@@ -20,7 +20,12 @@ def walk_table(run: Evaluation, title: str) -> Table:
     from rich.table import Table
 
     table = Table(title=title, caption=f"aligned by: {run.alignment_name}", title_justify="left")
-    for name, side in (("", "left"), ("left", "right"), ("right", "right"), ("both", "right")):
+    for name, side in (
+        ("", "left"),
+        ("left", "right"),
+        ("right", "right"),
+        ("both feet", "right"),
+    ):
         table.add_column(name, justify=side)  # type: ignore[arg-type]
     for section in (_walk(run), _truth(run), _markers(run), _closure(run), _feet(run)):
         for row in section:
@@ -52,10 +57,11 @@ def _truth(run: Evaluation) -> Iterator[Row]:
         "end error (% of distance)": "end_percent",
     }
     for label, name in names.items():
-        yield label, *(number(getattr(s, name), 3) for s in sides)  # type: ignore[misc]
+        left, right, middle = (number(getattr(s, name), 3) for s in sides)
+        yield label, left, right, f"mid-point {middle}"
     for mark in report.midpoint.at_distance_m:
         errors = [number(s.at_distance_m.get(mark), 3) for s in sides]
-        yield f"error at {mark} m (m)", errors[0], errors[1], errors[2]
+        yield f"error at {mark} m (m)", errors[0], errors[1], f"mid-point {errors[2]}"
     strides = (report.left_strides, report.right_strides)
     yield "stride RMSE (m)", number(strides[0].rmse_m, 3), number(strides[1].rmse_m, 3), ""
     ratios = [number(s.length_ratio, 4) for s in strides]
@@ -89,9 +95,10 @@ def _closure(run: Evaluation) -> Iterator[Row]:
     if gap is None:
         return
     label = "loop closure" if run.closed_loop else "start to end"
-    yield f"{label} (m)", *(number(v, 3) for v in (gap.left_m, gap.right_m, gap.mean_m))  # type: ignore[misc]
-    shares = (gap.left_percent, gap.right_percent, gap.mean_percent)
-    yield f"{label} (% of distance)", *(number(v) for v in shares)  # type: ignore[misc]
+    means = number(gap.mean_m, 3), number(gap.mean_percent)
+    yield f"{label} (m)", number(gap.left_m, 3), number(gap.right_m, 3), f"mean {means[0]}"
+    shares = number(gap.left_percent), number(gap.right_percent)
+    yield f"{label} (% of distance)", *shares, f"mean {means[1]}"
 
 
 def _feet(run: Evaluation) -> Iterator[Row]:

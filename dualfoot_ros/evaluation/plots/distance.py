@@ -19,16 +19,13 @@ if TYPE_CHECKING:
 
 def draw_distance(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
     """Draw one panel for each run."""
-    figure, axes = new_figure(
-        11.0, 0.9 + 2.4 * len(runs), rows=len(runs), sharex=True, sharey=True
-    )
+    figure, axes = new_figure(11.0, 0.9 + 2.4 * len(runs), rows=len(runs), sharex=True)
     for axis, (name, run) in zip(axes.flat, runs.items(), strict=True):
         _panel(axis, run)
         axis.set_title(name, fontsize=10, loc="left")
         axis.set_ylabel("distance (m)")
+        axis.set_ylim(0.0, 1.25 * axis.get_ylim()[1])  # room for the legend
         axis.legend(loc="upper right", fontsize=8, ncols=4, framealpha=0.9)
-    low, high = axes[0, 0].get_ylim()
-    axes[0, 0].set_ylim(0.0, high + 0.25 * (high - low))
     axes[-1, 0].set_xlabel("time since start (s)")
     figure.suptitle(f"{title}: distance between the feet", fontsize=11)
     return save(figure, path)

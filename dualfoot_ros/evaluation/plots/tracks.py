@@ -15,6 +15,9 @@ from .style import FOOT, MARKER, TRUTH, new_figure, save
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+MOST_DOTS = 80
+"""Stances are dotted on walks of no more than this many."""
+
 
 def draw_tracks(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
     """Draw one panel for each run, all to the same scale."""
@@ -28,7 +31,7 @@ def draw_tracks(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
         axis.set_xlabel("x (m)")
     axes[0, 0].set_ylabel("y (m)")
     handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    figure.legend(handles, labels, loc="outside lower center", ncols=6, fontsize=8, frameon=False)
     figure.suptitle(f"{title}: both feet from above", fontsize=11)
     return save(figure, path)
 
@@ -57,7 +60,8 @@ def _panel(axis: Axes, run: Evaluation) -> None:
         colour = FOOT[foot]
         axis.plot(*track.position[:, :2].T, color=colour, linewidth=0.9, label=f"{foot} foot")
         stood = Footfalls.of(track).mean(track.position)
-        axis.plot(*stood[:, :2].T, ".", color=colour, markersize=4)
+        if len(stood) <= MOST_DOTS:
+            axis.plot(*stood[:, :2].T, ".", color=colour, markersize=4)
     _ends(axis, run)
     axis.set_aspect("equal", adjustable="box")
 

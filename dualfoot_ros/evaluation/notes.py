@@ -1,0 +1,45 @@
+"""Sentences that go with the figures: what was refused, what could not be compared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from .markers import MarkerErrors
+
+REFUSED = {
+    "not_finite": "values that are not finite",
+    "out_of_range": "values no foot-mounted sensor gives",
+    "duplicate": "a stamp that was there already",
+    "out_of_order": "a stamp older than the one before",
+    "in_gap": "a gap in the samples",
+}
+
+
+def refusal_notes(counters: Mapping[str, int]) -> Iterator[str]:
+    """Say which samples were left out, and how often the samples had gaps."""
+    for name, count in counters.items():
+        source, _, what = name.rpartition(".")
+        foot, _, rest = what.partition("_")
+        if foot in ("left", "right"):
+            what, whose = rest, f" of the {foot} foot"
+        else:
+            whose = ""
+        if count and what in REFUSED:
+            unit = "sample" if source and whose else "pair"
+            yield f"{_many(count, unit)}{whose} left out: {REFUSED[what]}"
+        elif count and what in ("gap", "gaps"):
+            yield f"{_many(count, 'gap')} in the samples{whose}"
+
+
+def marker_notes(reports: Mapping[str, MarkerErrors]) -> Iterator[str]:
+    """Say for which foot stances and markers do not correspond."""
+    for foot, report in reports.items():
+        if report.stances != report.markers:
+            yield (
+                f"{report.stances} stances of the {foot} foot for {report.markers} markers, so "
+                "none is compared; see stance.threshold if the walk did step on every marker"
+            )
+
+
+def _many(count: int, unit: str) -> str:
+    return f"{count} {unit}" if count == 1 else f"{count} {unit}s"

@@ -1,0 +1,127 @@
+"""``dualfoot evaluate`` as a user meets it."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from dualfoot_ros.cli.main import main
+from dualfoot_ros.recording import Recording, Reference, write_bag
+from dualfoot_ros.simulation import WalkConfig, simulate
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory):
+    """Return a simulated walk with truth on disk."""
+    made = simulate(WalkConfig(route="straight"), seed=4)
+    path = tmp_path_factory.mktemp("bags") / "walk"
+    write_bag(path, Recording(made.left, made.right, made.left_truth, made.right_truth))
+    return str(path)
+
+
+@pytest.fixture(scope="module")
+def one_foot(tmp_path_factory):
+    """Return a recording of the left foot only."""
+    made = simulate(WalkConfig(route="standing"), seed=4)
+    path = tmp_path_factory.mktemp("bags") / "left_only"
+    write_bag(path, Recording(left=made.left))
+    return str(path)
+
+
+def test_the_table_names_bag_method_alignment_and_both_feet(bag, capsys):
+    assert main(["evaluate", bag, "--method", "zupt"]) == 0
+    out = capsys.readouterr().out
+    for word in ("method zupt", "first_strides", "RMSE (m)", "end error (%", "common", "crossed"):
+        assert word in out
+
+
+def test_json_is_one_object_and_nothing_else_whatever_is_written_beside_it(bag, tmp_path, capsys):
+    target = tmp_path / "report"
+    assert main(["evaluate", bag, "--json", "-o", str(target), "--no-plots"]) == 0
+    metrics = json.loads(capsys.readouterr().out)
+    assert metrics["alignment"]["method"] == "first_strides"
+    assert metrics["parameters"]["method"] == metrics["method"]
+    names = {"metrics.json", "left.tum", "right.tum", "left_truth.tum", "right_truth.tum"}
+    assert {p.name for p in target.iterdir()} == names
+    assert sorted(metrics["files"]) == sorted(str(p) for p in target.iterdir())
+
+
+def test_the_paths_of_the_plots_are_printed_and_exist(bag, tmp_path, capsys):
+    assert main(["evaluate", bag, "--method", "zupt", "-o", str(tmp_path / "new" / "report")]) == 0
+    printed = capsys.readouterr().out.split()
+    for name in ("tracks.png", "feet_distance.png", "stances.png", "errors.png"):
+        path = tmp_path / "new" / "report" / name
+        assert path.is_file()
+        assert str(path) in printed
+
+
+def test_without_an_output_folder_nothing_is_written(bag, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["evaluate", bag, "--method", "zupt"]) == 0
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_best_fit_over_the_walk_is_another_alignment_with_less_rmse(bag, capsys):
+    rmse = {}
+    for align in ("first_strides", "umeyama4"):
+        assert main(["evaluate", bag, "--method", "zupt", "--json", "--align", align]) == 0
+        metrics = json.loads(capsys.readouterr().out)
+        assert metrics["alignment"]["method"] == align
+        rmse[align] = metrics["truth"]["midpoint"]["rmse_m"]
+    assert rmse["umeyama4"] < rmse["first_strides"]
+
+
+def test_a_parameter_set_by_hand_is_the_one_that_ran(bag, capsys):
+    assert main(["evaluate", bag, "--json", "--method", "zupt", "--set", "zupt.std=2e-2"]) == 0
+    assert json.loads(capsys.readouterr().out)["parameters"]["zupt.std"] == 0.02
+
+
+def test_a_reference_from_elsewhere_is_used(bag, tmp_path, capsys):
+    file = tmp_path / "markers.yaml"
+    Reference("a test", {"right": [[0.0, 0.0, 0.0], [1.2, 0.0, 0.0]]}).save(file)
+    assert main(["evaluate", bag, "--method", "zupt", "--json", "--reference", str(file)]) == 0
+    metrics = json.loads(capsys.readouterr().out)
+    assert metrics["markers"]["right"]["markers"] == 2
+    assert "for 2 markers" in metrics["notes"][0]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--method", "magic"], "parameter 'method' is 'magic'; allowed is one of"),
+        (["--set", "zupt.std=-1"], "parameter 'zupt.std' is -1"),
+        (["--set", "zupt.std"], "allowed is KEY=VALUE"),
+        (["--set", "zupt.sdt=1"], "unknown parameter 'zupt.sdt'"),
+        (["--config", "no_such_preset"], "no_such_preset"),
+        (["--align-length", "0"], "--align-length is 0"),
+        (["--reference", "no_such_file.yaml"], "no_such_file.yaml"),
+        (["--right-topic", "/imu"], "no samples of the right foot"),
+    ],
+)
+def test_what_cannot_be_used_is_a_sentence_and_exit_code_2(bag, arguments, sentence, capsys):
+    assert main(["evaluate", bag, *arguments]) == 2
+    captured = capsys.readouterr()
+    assert sentence in captured.err
+    assert captured.out == ""
+
+
+def test_one_foot_is_not_enough_and_leaves_no_folder(one_foot, tmp_path, capsys):
+    assert main(["evaluate", one_foot, "-o", str(tmp_path / "report")]) == 2
+    assert "only the left foot" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_output_that_is_a_file_is_refused_before_anything_is_read(tmp_path, capsys):
+    file = tmp_path / "report"
+    file.write_text("mine")
+    assert main(["evaluate", "no_such_bag", "-o", str(file)]) == 2
+    assert "is a file" in capsys.readouterr().err
+    assert file.read_text() == "mine"
+
+
+def test_the_command_as_a_process_gives_json_on_standard_output_only(bag):
+    command = [sys.executable, "-m", "dualfoot_ros", "evaluate", bag, "--method", "zupt", "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert json.loads(done.stdout)["method"] == "zupt"
+    assert done.stderr == ""

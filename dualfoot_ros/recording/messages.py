@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -11,9 +11,6 @@ from ..core.series import FloatArray, IntArray
 from . import cdr
 from .errors import RecordingError
 from .topics import FIELD_TYPE, IMU_TYPE, TRUTH_TYPE
-
-if TYPE_CHECKING:
-    from rosbags.typesys.store import Typestore
 
 IMU_DOUBLES = 37  # orientation, its covariance, rate, covariance, specific force, covariance
 FIELD_DOUBLES = 12  # field, its covariance
@@ -31,7 +28,7 @@ class Table:
     texts: list[str]
 
 
-def table(messages: list[bytes], msgtype: str, topic: str, store: Typestore) -> Table:
+def table(messages: list[bytes], msgtype: str, topic: str) -> Table:
     """Decode all ``messages`` of ``topic``, which are of ``msgtype``.
 
     Raises
@@ -43,10 +40,13 @@ def table(messages: list[bytes], msgtype: str, topic: str, store: Typestore) -> 
     if not messages:
         return Table(np.empty(0, dtype=np.int64), np.empty((0, doubles)), [""] * texts)
     fast = cdr.decode(messages, doubles, texts)
-    return Table(*fast) if fast is not None else _one_by_one(messages, msgtype, topic, store)
+    return Table(*fast) if fast is not None else _one_by_one(messages, msgtype, topic)
 
 
-def _one_by_one(messages: list[bytes], msgtype: str, topic: str, store: Typestore) -> Table:
+def _one_by_one(messages: list[bytes], msgtype: str, topic: str) -> Table:
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_JAZZY)
     stamps = np.empty(len(messages), dtype=np.int64)
     values = np.empty((len(messages), _LAYOUT[msgtype][0]))
     texts: list[str] = []

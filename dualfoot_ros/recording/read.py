@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ..core.series import FloatArray, ImuSeries, PoseSeries
+from ..core.trajectory import FEET
 from . import messages
 from .errors import RecordingError
 from .open_bag import iterate, opened
@@ -18,7 +19,6 @@ from .topics import FIELD_TYPE, IMU_TYPE, TRUTH_TYPE, Topics
 
 if TYPE_CHECKING:
     from rosbags.rosbag2 import Reader
-    from rosbags.typesys.store import Typestore
 
 Progress = Callable[[float], None]
 NOTE_PREFIX = "dualfoot."
@@ -40,25 +40,33 @@ def read_bag(
     """
     path = Path(path)
     topics = topics or Topics()
-    raw, notes, store = _read_raw(path, topics, progress)
+    raw = _read_raw(path, topics, progress)
     tables = {
-        topic: messages.table(data, msgtype, topic, store)
-        for topic, (msgtype, data) in raw.items()
+        topic: messages.table(data, msgtype, topic)
+        for topic, (msgtype, data) in raw.topics.items()
     }
     parts: dict[str, Any] = {}
-    for foot in ("left", "right"):
+    for foot in FEET:
         names = topics.of(foot)
         parts[foot] = _imu(tables.get(names.imu), tables.get(names.magnetic_field))
         parts[f"{foot}_truth"] = _truth(tables.get(names.truth))
         parts[f"{foot}_frame"] = _frame(tables.get(names.imu), names.imu_frame)
-    return Recording(**parts, reference=_reference(path), notes=notes)
+    return Recording(
+        **parts,
+        reference=_reference(path),
+        notes=raw.notes,
+        topics=topics,
+        imu_topics=raw.imu_topics,
+    )
 
 
-def _read_raw(
-    path: Path, topics: Topics, progress: Progress | None
-) -> tuple[dict[str, tuple[str, list[bytes]]], dict[str, str], Typestore]:
-    from rosbags.typesys import Stores, get_typestore
+class _Raw(NamedTuple):
+    topics: dict[str, tuple[str, list[bytes]]]
+    notes: dict[str, str]
+    imu_topics: tuple[str, ...]
 
+
+def _read_raw(path: Path, topics: Topics, progress: Progress | None) -> _Raw:
     expected = _expected_types(topics)
     raw: dict[str, tuple[str, list[bytes]]] = {}
     with opened(path) as reader:
@@ -71,13 +79,13 @@ def _read_raw(
             raw[topic][1].append(data)
             if progress is not None and done % 4096 == 0:
                 progress(min(1.0, done / total))
-        notes = _notes(reader)
-    return raw, notes, get_typestore(Stores.ROS2_JAZZY)
+        others = sorted({c.topic for c in reader.connections if c.msgtype == IMU_TYPE})
+        return _Raw(raw, _notes(reader), tuple(others))
 
 
 def _expected_types(topics: Topics) -> dict[str, str]:
     expected = {}
-    for foot in ("left", "right"):
+    for foot in FEET:
         names = topics.of(foot)
         expected[names.imu] = IMU_TYPE
         expected[names.magnetic_field] = FIELD_TYPE

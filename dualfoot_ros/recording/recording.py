@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from ..core.series import ImuSeries, PoseSeries
 from .reference import Reference
+from .topics import Topics
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,8 @@ class Recording:
     reference : floor markers and the like, where there are any
     left_frame, right_frame : frame ids of the two sensors
     notes : further facts that travel with the bag (where it comes from, which clock it has ...)
+    topics : the names under which the samples were looked for
+    imu_topics : every topic of type sensor_msgs/Imu that the bag has
     """
 
     left: ImuSeries | None = None
@@ -30,6 +33,8 @@ class Recording:
     left_frame: str = "left_imu"
     right_frame: str = "right_imu"
     notes: Mapping[str, str] = field(default_factory=dict)
+    topics: Topics = field(default_factory=Topics)
+    imu_topics: tuple[str, ...] = ()
 
     def imu(self, foot: str) -> ImuSeries | None:
         """Return the samples of ``foot``, "left" or "right"."""

@@ -55,9 +55,18 @@ class Reference:
     length_m: float | None = None
     frame: str = "floor"
 
+    def summary(self) -> str:
+        """Say in one line what is known."""
+        parts = [
+            f"{len(points)} markers of the {foot} foot" for foot, points in self.markers.items()
+        ]
+        parts += ["the way closes"] if self.closed_loop else []
+        parts += [f"{self.length_m:g} m long"] if self.length_m is not None else []
+        return f"{', '.join(parts) or 'nothing'} ({self.source})"
+
     def save(self, path: str | Path) -> None:
         """Write the reference to ``path``, whole or not at all; raise OSError when it cannot."""
-        import yaml  # type: ignore[import-untyped]
+        import yaml
 
         document = {
             "format": FORMAT,

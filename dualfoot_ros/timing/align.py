@@ -12,9 +12,9 @@ import numpy as np
 
 from ..core.series import ImuSeries, IntArray
 from ..core.trajectory import FEET
+from .clean import Clean, clean
 from .config import Sync
 from .errors import TimingError
-from .gate import Gate
 from .places import BoolArray, Places
 
 
@@ -56,48 +56,35 @@ def align_with_report(
         When the stamps of a foot jump back and go on from there: two recordings in one.
     """
     config = config or Sync()
-    gates = {foot: Gate(config) for foot in FEET}
-    clean = {
-        "left": _admitted("left", left, gates["left"], config),
-        "right": _admitted("right", right, gates["right"], config),
-    }
-    grid = _grid(clean, config)
-    places = [Places.of(clean[foot].stamp_ns, grid, config) for foot in FEET]
+    found = {"left": clean(left, config), "right": clean(right, config)}
+    feet = {foot: _increasing(foot, found[foot]) for foot in FEET}
+    grid = _grid(feet, config)
+    places = [Places.of(feet[foot].stamp_ns, grid, config) for foot in FEET]
     good = places[0].found & places[1].found
-    feet = [p.take(clean[f], grid, good) for f, p in zip(FEET, places, strict=True)]
-    counters = {f"{f}_{k}": n for f in FEET for k, n in gates[f].counters.items()}
+    taken = [p.take(feet[f], grid, good) for f, p in zip(FEET, places, strict=True)]
+    counters = {f"{f}_{k}": n for f in FEET for k, n in found[f].counters.items()}
     counters |= _outcomes(places, good)
-    return feet[0], feet[1], AlignReport(counters, _overlap_s(clean))
+    return taken[0], taken[1], AlignReport(counters, _overlap_s(feet))
 
 
-def _admitted(foot: str, series: ImuSeries, gate: Gate, config: Sync) -> ImuSeries:
-    finite: BoolArray = np.isfinite(series.specific_force).all(axis=1)
-    finite = finite & np.isfinite(series.angular_rate).all(axis=1)
-    steps = np.diff(series.stamp_ns)
-    if finite.all() and (steps > config.tolerance_ns).all():
-        gate.counters["accepted"] += len(series)
-        gate.counters["gap"] += int((steps > config.max_gap_ns).sum())
-        return series
-    keep = np.zeros(len(series), dtype=bool)
-    for i, (stamp_ns, good) in enumerate(zip(series.stamp_ns.tolist(), finite, strict=True)):
-        keep[i] = gate.refusal(stamp_ns, bool(good)) is None
-        if gate.restarted:
-            raise TimingError(
-                f"the stamps of the {foot} foot jump back at sample {i} and go on from "
-                f"{stamp_ns * 1e-9:.3f} s: two recordings in one; cut it there"
-            )
-    return series[keep]
+def _increasing(foot: str, found: Clean) -> ImuSeries:
+    if found.restart_at is None:
+        return found.series
+    raise TimingError(
+        f"the stamps of the {foot} foot jump back and go on from there (seen at sample "
+        f"{found.restart_at}): two recordings in one; cut it there"
+    )
 
 
-def _grid(clean: Mapping[str, ImuSeries], config: Sync) -> IntArray:
-    if not all(len(series) for series in clean.values()):
+def _grid(feet: Mapping[str, ImuSeries], config: Sync) -> IntArray:
+    if not all(len(series) for series in feet.values()):
         return np.empty(0, dtype=np.int64)
     if config.rate == 0:
-        return clean[config.reference].stamp_ns
-    start = max(int(series.stamp_ns[0]) for series in clean.values())
-    numbers = _numbers(clean["left"].stamp_ns, start, config)
+        return feet[config.reference].stamp_ns
+    start = max(int(series.stamp_ns[0]) for series in feet.values())
+    numbers = _numbers(feet["left"].stamp_ns, start, config)
     grid = start + np.rint(numbers * 1e9 / config.rate).astype(np.int64)
-    end = min(int(series.stamp_ns[-1]) for series in clean.values())
+    end = min(int(series.stamp_ns[-1]) for series in feet.values())
     return grid[grid <= end + config.tolerance_ns]
 
 
@@ -125,9 +112,9 @@ def _outcomes(places: list[Places], good: BoolArray) -> dict[str, int]:
     }
 
 
-def _overlap_s(clean: Mapping[str, ImuSeries]) -> float:
-    if not all(len(series) for series in clean.values()):
+def _overlap_s(feet: Mapping[str, ImuSeries]) -> float:
+    if not all(len(series) for series in feet.values()):
         return 0.0
-    start = max(int(series.stamp_ns[0]) for series in clean.values())
-    end = min(int(series.stamp_ns[-1]) for series in clean.values())
+    start = max(int(series.stamp_ns[0]) for series in feet.values())
+    end = min(int(series.stamp_ns[-1]) for series in feet.values())
     return (end - start) * 1e-9

@@ -131,7 +131,7 @@ def test_a_gap_is_counted_and_its_stamps_are_dropped():
 
 def test_a_foot_that_starts_again_in_the_past_is_refused_with_a_sentence():
     stamps = np.concatenate([np.arange(200), np.arange(100)]) * 10 * MS
-    with pytest.raises(TimingError, match="right foot jump back at sample 219"):
+    with pytest.raises(TimingError, match=r"right foot jump back .*sample 219"):
         align(series(np.arange(300) * 10 * MS), series(stamps))
 
 

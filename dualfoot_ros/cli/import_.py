@@ -1,0 +1,120 @@
+"""``dualfoot import``: sensor exports and data sets, as a bag."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from ..core.trajectory import FEET
+from ..recording import Recording, checks, write_bag
+from ..recording.atomic import check_target
+from ..recording.errors import RecordingError
+from ..recording.importers import FORMATS, ImportOptions, import_recording
+from ..recording.importers.axes import IDENTITY
+from ..recording.open_bag import METADATA
+from ..recording.write import STORAGES
+from .progress import progress
+
+HELP = "turn sensor exports and data sets into a bag"
+EXAMPLES = """\
+examples:
+  dualfoot import --list
+  dualfoot import rectangle_ccw/XF_2Laces_ccw_1.mat -o walk
+  dualfoot import --left L.csv --right R.csv -o walk
+  dualfoot import --left L.csv --right R.csv --axes=+y-x+z --right-offset 162.49 -o walk
+
+Axes and units of the bag: forward-left-up, m/s^2, rad/s, tesla. Stamps are those of the devices.
+What is known of the walk (floor markers, a closed loop) goes into reference.yaml in the bag.
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("source", nargs="*", type=Path, metavar="SOURCE", help="file to import")
+    parser.add_argument("-o", "--output", type=Path, metavar="BAG", help="bag to write (a folder)")
+    names = ["auto", *(f.name for f in FORMATS)]
+    parser.add_argument(
+        "--format", default="auto", choices=names, help="format of the source (default: auto)"
+    )
+    parser.add_argument("--list", action="store_true", help="list the formats and exit")
+    for foot in ("left", "right"):
+        parser.add_argument(
+            f"--{foot}", type=Path, metavar="FILE", help=f"file of the {foot} foot's sensor"
+        )
+    parser.add_argument(
+        "--axes",
+        default=IDENTITY,
+        metavar="AXES",
+        help="device axes that point forward, left and up, written --axes=+x+y+z "
+        "(default: %(default)s; xsens-dot only)",
+    )
+    parser.add_argument(
+        "--right-offset",
+        type=float,
+        default=0.0,
+        metavar="S",
+        help="seconds added to the stamps of the right foot, for devices with different clocks",
+    )
+    parser.add_argument(
+        "--field-scale",
+        type=float,
+        default=0.0,
+        metavar="T",
+        help="tesla per unit of the magnetometer; 0 leaves it out (default; xsens-dot only)",
+    )
+    parser.add_argument(
+        "--storage", default="mcap", choices=STORAGES, help="storage of the bag (default: mcap)"
+    )
+    parser.add_argument("--overwrite", action="store_true", help="replace an existing bag")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Import and say what was written."""
+    if args.list:
+        _list()
+        return 0
+    if args.output is None:
+        raise RecordingError("no output given; allowed is -o BAG, the folder to write")
+    check_target(args.output, overwrite=args.overwrite, marker=METADATA)
+    recording = import_recording(_options(args), args.format)
+    with progress(f"writing {args.output}") as update:
+        write_bag(
+            args.output,
+            recording,
+            storage=args.storage,
+            overwrite=args.overwrite,
+            progress=update,
+        )
+    _report(args.output, recording)
+    return 0
+
+
+def _list() -> None:
+    width = max(len(f.name) for f in FORMATS)
+    for known in FORMATS:
+        print(f"{known.name:<{width}}  {known.description}")
+
+
+def _options(args: argparse.Namespace) -> ImportOptions:
+    return ImportOptions(
+        sources=tuple(args.source),
+        left=args.left,
+        right=args.right,
+        axes=args.axes,
+        right_offset_s=args.right_offset,
+        field_scale=args.field_scale,
+    )
+
+
+def _report(output: Path, recording: Recording) -> None:
+    for foot in FEET:
+        imu = recording.imu(foot)
+        if imu is not None:
+            print(f"{foot}: {len(imu)} samples, {imu.duration_s:.1f} s, {imu.rate_hz:.1f} Hz")
+    reference = recording.reference
+    if reference is not None:
+        print(f"reference: {reference.summary()}")
+    print(f"wrote {output}")
+    for finding in checks.findings(recording):
+        print(f"dualfoot import: warning: {finding.sentence}", file=sys.stderr)

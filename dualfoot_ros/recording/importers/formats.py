@@ -1,0 +1,87 @@
+"""The table of formats, and which one a source is."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import cast
+
+import numpy as np
+
+from ...core.series import ImuSeries
+from ..errors import RecordingError
+from ..recording import Recording
+from .options import ImportOptions
+
+
+@dataclass(frozen=True)
+class Format:
+    """One format: its name, what it is in words, and the module that loads it."""
+
+    name: str
+    description: str
+    suffix: str
+    module: str
+
+    def load(self, options: ImportOptions) -> Recording:
+        """Load a recording; raise RecordingError when the files are not as the format says."""
+        module = importlib.import_module(f".{self.module}", __package__)
+        return cast(Callable[[ImportOptions], Recording], module.load)(options)
+
+
+FORMATS = (
+    Format(
+        "dual-feet",
+        "one .mat file of the dual-feet data set (Ma and Särkkä 2023): two Xsens DOT, 60 Hz",
+        ".mat",
+        "dual_feet",
+    ),
+    Format(
+        "xsens-dot",
+        "two .csv exports of the Xsens DOT app, one a foot (--left, --right)",
+        ".csv",
+        "xsens_dot",
+    ),
+)
+
+
+def import_recording(options: ImportOptions, name: str = "auto") -> Recording:
+    """Load the sources of ``options`` as format ``name``; "auto" goes by the file names.
+
+    Raises
+    ------
+    RecordingError
+        When there is no such format, or the files are not as it says.
+    OSError
+        When a file cannot be read.
+    """
+    files = [*options.sources, *(p for p in (options.left, options.right) if p is not None)]
+    if not files:
+        raise RecordingError("no source given; allowed is a file of a format in --list")
+    for file in files:
+        if not file.is_file():
+            raise RecordingError(f"there is no file '{file}'")
+    recording = _format(name, files[0].suffix.lower()).load(options)
+    return _shifted(recording, round(options.right_offset_s * 1e9))
+
+
+def _format(name: str, suffix: str) -> Format:
+    for candidate in FORMATS:
+        if name == candidate.name or (name == "auto" and suffix == candidate.suffix):
+            return candidate
+    names = ", ".join(f.name for f in FORMATS)
+    if name == "auto":
+        known = ", ".join(f"{f.suffix} ({f.name})" for f in FORMATS)
+        raise RecordingError(f"files '*{suffix}' are of no known format; known: {known}")
+    raise RecordingError(f"format is '{name}'; allowed is auto, {names}")
+
+
+def _shifted(recording: Recording, offset_ns: int) -> Recording:
+    right = recording.right
+    if offset_ns == 0 or right is None:
+        return recording
+    stamps = right.stamp_ns + np.int64(offset_ns)
+    notes = {**recording.notes, "right_offset_s": f"{offset_ns * 1e-9:.9f}"}
+    moved: ImuSeries = replace(right, stamp_ns=stamps)
+    return replace(recording, right=moved, notes=notes)

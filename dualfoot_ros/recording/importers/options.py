@@ -1,0 +1,29 @@
+"""What an importer is told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from .axes import IDENTITY
+
+
+@dataclass(frozen=True)
+class ImportOptions:
+    """What to import and how; what a format does not need is left at its default.
+
+    Attributes
+    ----------
+    sources : files that hold both feet
+    left, right : files of one foot each
+    axes : which device axes point forward, left and up, as ``axes.parse`` reads it
+    right_offset_s : added to every stamp of the right foot, s
+    field_scale : tesla per unit of the magnetometer, 0 leaves it out
+    """
+
+    sources: tuple[Path, ...] = ()
+    left: Path | None = None
+    right: Path | None = None
+    axes: str = IDENTITY
+    right_offset_s: float = 0.0
+    field_scale: float = 0.0

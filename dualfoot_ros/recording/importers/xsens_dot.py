@@ -1,0 +1,119 @@
+"""Exports of the Xsens DOT app: one .csv a sensor, about ten header lines, then columns.
+
+``Acc_*`` is m/s^2, ``Gyr_*`` deg/s, ``Mag_*`` arbitrary units (1 is the field where the sensor
+was calibrated), ``SampleTimeFine`` the device's microseconds as a 32-bit counter.  The device is
+forward-left-up when it lies flat with its x axis to the toes; ``axes`` says otherwise.
+"""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import numpy as np
+
+from ...core.series import FloatArray, ImuSeries
+from ..errors import RecordingError
+from ..recording import Recording
+from . import axes
+from .counter import same_wrap, unwrap_us
+from .options import ImportOptions
+
+FIRST_COLUMN = "PacketCounter"
+STAMP = "SampleTimeFine"
+GROUPS = {name: tuple(f"{name}_{axis}" for axis in "XYZ") for name in ("Acc", "Gyr", "Mag")}
+HEADER_LINES = 40
+
+
+def load(options: ImportOptions) -> Recording:
+    """Load the two files ``options.left`` and ``options.right``.
+
+    Raises
+    ------
+    RecordingError
+        When a foot is missing or a file is no such export; names the file and the column.
+    """
+    if options.left is None or options.right is None or options.sources:
+        raise RecordingError(
+            "an Xsens DOT export holds one sensor, and which foot it was on is not in it; give "
+            "--left FILE and --right FILE"
+        )
+    rotation = axes.parse(options.axes)
+    left, left_header = _read(options.left, rotation, options.field_scale)
+    right, right_header = _read(options.right, rotation, options.field_scale)
+    left_ns, right_ns = same_wrap(left.stamp_ns, right.stamp_ns)
+    return Recording(
+        left=_restamped(left, left_ns),
+        right=_restamped(right, right_ns),
+        notes={
+            "source": f"{options.left.name}, {options.right.name}",
+            "format": "xsens-dot",
+            "stamp_source": f"{STAMP}, microseconds of each device's own clock, unwrapped",
+            "axes": f"forward, left, up are the device's {options.axes}",
+            "sync_status": _both(left_header, right_header, "SyncStatus"),
+            "device_tag": _both(left_header, right_header, "DeviceTag"),
+            "start_time": _both(left_header, right_header, "StartTime"),
+        },
+    )
+
+
+def _both(left: dict[str, str], right: dict[str, str], key: str) -> str:
+    return f"left {left.get(key, 'unknown')}, right {right.get(key, 'unknown')}"
+
+
+def _restamped(series: ImuSeries, stamp_ns: np.ndarray) -> ImuSeries:
+    return ImuSeries(stamp_ns, series.specific_force, series.angular_rate, series.magnetic_field)
+
+
+def _read(
+    path: Path, rotation: FloatArray, field_scale: float
+) -> tuple[ImuSeries, dict[str, str]]:
+    lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
+    at = _first_line(lines, path)
+    delimiter = ";" if ";" in lines[at] else ","
+    names = [name.strip() for name in lines[at].split(delimiter)]
+    wanted = [STAMP, *GROUPS["Acc"], *GROUPS["Gyr"], *(GROUPS["Mag"] if field_scale else ())]
+    table = _table(lines[at + 1 :], names, wanted, delimiter, path, at + 2)
+    vectors = [table[:, k : k + 3] @ rotation.T for k in range(1, table.shape[1], 3)]
+    field = vectors[2] * field_scale if field_scale else None
+    series = ImuSeries(unwrap_us(table[:, 0]), vectors[0], np.deg2rad(vectors[1]), field)
+    return series, _header(lines[:at], delimiter)
+
+
+def _first_line(lines: list[str], path: Path) -> int:
+    for at, line in enumerate(lines[:HEADER_LINES]):
+        if line.strip().startswith(FIRST_COLUMN):
+            return at
+    raise RecordingError(
+        f"'{path}' is no Xsens DOT export: none of its first {HEADER_LINES} lines starts with "
+        f"'{FIRST_COLUMN}'"
+    )
+
+
+def _table(
+    lines: list[str], names: list[str], wanted: list[str], delimiter: str, path: Path, first: int
+) -> FloatArray:
+    missing = [name for name in wanted if name not in names]
+    if missing:
+        raise RecordingError(
+            f"'{path}' has no column {', '.join(missing)}; export from a measurement mode with "
+            "rate quantities (acceleration and angular velocity)"
+        )
+    rows = [line for line in lines if line.strip(f"{delimiter} ")]
+    if not rows:
+        raise RecordingError(f"'{path}' holds no sample after its header; record again")
+    columns = [names.index(name) for name in wanted]
+    try:
+        return np.loadtxt(
+            io.StringIO("\n".join(rows)), delimiter=delimiter, usecols=columns, ndmin=2
+        )
+    except ValueError as error:
+        reason = " ".join(str(error).split()).rstrip(".")
+        raise RecordingError(
+            f"'{path}' is damaged: {reason} (rows counted from line {first})"
+        ) from None
+
+
+def _header(lines: list[str], delimiter: str) -> dict[str, str]:
+    pairs = (line.split(delimiter) for line in lines if ":" in line.split(delimiter)[0])
+    return {cells[0].strip(" :"): cells[1].strip() for cells in pairs if len(cells) > 1}

@@ -1,0 +1,37 @@
+"""Where the two feet stood, as the tracker sees it without any constraint between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core import DualFootTracker, ImuSeries, TrackerConfig
+from ..core.trajectory import FootTrajectory, stance_bounds
+from ..timing import Sync, align
+
+
+@dataclass(frozen=True)
+class Stances:
+    """The stances of one foot: how many, their median length (s), their share of the walk."""
+
+    count: int
+    median_s: float
+    share: float
+    distance_m: float
+
+
+def stances_of(left: ImuSeries, right: ImuSeries, sync: Sync | None = None) -> dict[str, Stances]:
+    """Return the stances of both feet; raise AlignmentError without a standstill."""
+    found = DualFootTracker(TrackerConfig(method="zupt")).run(*align(left, right, sync))
+    return {"left": _of(found.left), "right": _of(found.right)}
+
+
+def _of(foot: FootTrajectory) -> Stances:
+    bounds = stance_bounds(foot.stance)
+    if not len(bounds):
+        return Stances(0, float("nan"), 0.0, 0.0)
+    lengths = (foot.stamp_ns[bounds[:, 1] - 1] - foot.stamp_ns[bounds[:, 0]]) * 1e-9
+    walk = slice(bounds[0, 1], bounds[-1, 0])
+    share = float(foot.stance[walk].mean()) if walk.stop > walk.start else 0.0
+    return Stances(len(bounds), float(np.median(lengths)), share, foot.distance_m)

@@ -13,6 +13,8 @@ from .series import FloatArray
 from .trajectory import Event
 from .workspace import Workspace
 
+POSE_SIGNS = np.repeat([1.0, -1.0], 3)  # position error, rotation error = -phi
+
 
 @dataclass(frozen=True)
 class FootEstimate:
@@ -139,9 +141,9 @@ class Update:
         left, right = self.row[: at.O_FOOT], self.row[at.O_FOOT : 2 * at.O_FOOT]
         joint = self._joint.covariance()
         mean = np.zeros((9, 30))
-        for i, state in enumerate((at.E_POS, at.E_ATT, at.E_VEL)):
+        for i, (state, half) in enumerate(((at.E_POS, 0.5), (at.E_ATT, -0.5), (at.E_VEL, 0.5))):
             for axis in range(3):
-                mean[3 * i + axis, state + axis] = mean[3 * i + axis, 15 + state + axis] = 0.5
+                mean[3 * i + axis, state + axis] = mean[3 * i + axis, 15 + state + axis] = half
         covariance = mean @ joint @ mean.T
         return PedestrianEstimate(
             0.5 * (left[at.O_POS : at.O_POS + 3] + right[at.O_POS : at.O_POS + 3]),
@@ -153,9 +155,13 @@ class Update:
 
 
 def pose_part(block: FloatArray) -> FloatArray:
-    """Return the (6, 6) position and attitude part of a foot's covariance block."""
+    """Return the (6, 6) position and rotation part of a foot's covariance block.
+
+    The filter's attitude error turns the estimate back to the truth, C_hat = (I - [phi x]) C; the
+    rotation by which the estimate exceeds the truth is -phi, hence the signs of the cross part.
+    """
     keep = [at.E_POS, at.E_POS + 1, at.E_POS + 2, at.E_ATT, at.E_ATT + 1, at.E_ATT + 2]
-    return block[np.ix_(keep, keep)]
+    return block[np.ix_(keep, keep)] * np.outer(POSE_SIGNS, POSE_SIGNS)
 
 
 def quaternion_yaw(q: FloatArray) -> float:

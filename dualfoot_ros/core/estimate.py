@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
     from .workspace import Workspace
 
 Row = Mapping[int, float]
+
+ROUNDING = 1e-13  # relative size below which a variance is a rounding error
 
 
 @dataclass(frozen=True)
@@ -93,12 +96,15 @@ class JointEstimate:
         """Update with up to three scalar measurements; return (S, NIS).
 
         ``innovation`` is predicted minus measured (estimate minus truth, as the errors are) and
-        ``variances`` the noise of each; zero makes an exact constraint.
+        ``variances`` the noise of each; zero makes an exact constraint.  A variance H P H' that is
+        mere rounding counts as none: what an exact constraint has settled stays settled.
         """
         w = self._space.w
         self._collect(rows)
         m = len(rows)
         for i in range(m):
+            if w[at.S_S + 4 * i] < ROUNDING * self._magnitude(rows[i]):
+                w[at.S_S + 4 * i] = 0.0
             w[at.S_S + 4 * i] += variances[i]
             w[at.S_Y + i] = innovation[i]
         s = w[at.S_S : at.S_S + 9].reshape(3, 3)[:m, :m].copy()
@@ -116,6 +122,14 @@ class JointEstimate:
         w[at.S_G + 16 : at.S_G + 31] = cross[15:]
         w[at.S_S], w[at.S_Y] = s, innovation
         return float(self._engine.correct(w, 1))
+
+    def _magnitude(self, row: Row) -> float:
+        """Return the greatest variance that the states of ``row`` could give together."""
+        w, total = self._space.w, 0.0
+        for state, coefficient in row.items():
+            start = at.PLL if state < 15 else at.PRR
+            total += abs(coefficient) * math.sqrt(max(0.0, w[start + (at.ROW + 1) * (state % 15)]))
+        return total * total
 
     def _collect(self, rows: Sequence[Row]) -> None:
         w = self._space.w

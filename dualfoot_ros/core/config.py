@@ -62,6 +62,15 @@ class Heading(Parameters):
     from_stance: int = parameter(1, "first stance that fixes the direction", minimum=0, maximum=20)
     to_stance: int = parameter(3, "last stance that fixes the direction", minimum=1, maximum=40)
 
+    def __post_init__(self) -> None:
+        """Check that the two stances are in order."""
+        super().__post_init__()
+        if self.from_stance >= self.to_stance:
+            raise ConfigError(
+                f"parameter 'heading.to_stance' is {self.to_stance}; allowed is more than "
+                f"heading.from_stance, {self.from_stance}"
+            )
+
 
 @dataclass(frozen=True)
 class Noise(Parameters):

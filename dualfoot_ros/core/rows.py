@@ -36,7 +36,11 @@ def zupt_event(row: FloatArray, foot: int, stamp_ns: int) -> Event | None:
 
 
 def turn_rows(rows: FloatArray, event: Event) -> None:
-    """Turn and move one foot's part of ``rows`` (N, OUT) in place, as a HEADING event says."""
+    """Turn and move one foot's part of ``rows`` (N, OUT) in place, as a HEADING event says.
+
+    Until both headings are known the feet are uncorrelated, so that the covariance of the
+    separation changes as the foot's own does.
+    """
     yaw, foot = event.detail["yaw"], FEET.index(event.foot)
     c, s = math.cos(yaw), math.sin(yaw)
     turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
@@ -46,9 +50,11 @@ def turn_rows(rows: FloatArray, event: Event) -> None:
     position[:] = (position - pivot) @ turn.T + pivot + shift
     velocity[:] = velocity @ turn.T
     _turn_quaternions(part[:, at.O_QUAT : at.O_QUAT + 4], yaw)
+    rows[:, at.O_RELATIVE : at.O_RELATIVE + 6] -= part[:, at.O_COV_POS : at.O_COV_POS + 6]
     for start in (at.O_COV_POS, at.O_COV_VEL, at.O_COV_ATT, at.O_ZUPT + 3):
         size = 9 if start == at.O_ZUPT + 3 else 6
         _turn_covariances(part[:, start : start + size], turn)
+    rows[:, at.O_RELATIVE : at.O_RELATIVE + 6] += part[:, at.O_COV_POS : at.O_COV_POS + 6]
     part[:, at.O_ZUPT : at.O_ZUPT + 3] = part[:, at.O_ZUPT : at.O_ZUPT + 3] @ turn.T
 
 

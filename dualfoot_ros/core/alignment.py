@@ -111,6 +111,7 @@ class Standstill:
         keep = max(2, math.ceil(self._config.still_fraction * len(self._windows)))
         ranked = sorted(self._windows, key=lambda w: float(w.std[at + 3 : at + 6].max()))[:keep]
         means = np.array([w.mean[at : at + 6] for w in ranked])
-        scatter = means[:, 3:].std(axis=0).max() / math.sqrt(len(ranked))
+        spread = means[:, 3:].std(axis=0, ddof=1).max() if len(ranked) > 1 else 0.0
+        scatter = spread / math.sqrt(len(ranked))
         mean = means.mean(axis=0)
         return FootStandstill(mean[:3], mean[3:], float(scatter))

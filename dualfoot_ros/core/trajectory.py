@@ -37,7 +37,8 @@ class Event:
     stamp_ns : when it holds (for a constraint at the minimum-distance moment: that moment)
     foot : "left", "right" or "both"
     detected_ns : the epoch at which it became known and was applied; never before ``stamp_ns``
-    innovation : (m,) measured minus predicted, in the units of the measurement
+    innovation : (m,) predicted minus measured (estimate minus truth, as the filter's errors), in
+        the units of the measurement
     S : (m, m) innovation covariance
     nis : normalised innovation squared, innovation' S^-1 innovation
     accepted : False when a gate or a rule refused to apply it

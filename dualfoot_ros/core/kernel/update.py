@@ -4,7 +4,8 @@ Every measurement of up to three rows goes one way: ``collect`` builds P H', S a
 scratch, ``correct`` factors S = L D L', takes P - V V' in one exactly symmetric pass and feeds the
 estimated error back.  P is never inverted, so a covariance that an equality constraint has made
 singular is no trouble.  Errors are estimate minus truth (Liu et al. 2023, section III-C); the
-attitude error is that of C_hat = (I - [phi x]) C.
+attitude error is that of C_hat = (I - [phi x]) C, and the biases of eq. (6) are what is left of
+them, truth minus estimate, so they are fed back with the other sign.
 """
 
 import math
@@ -147,9 +148,9 @@ def feed_back(w):
 def zupt(w, foot):
     """Zero-velocity update of one foot, eq. (12), at the point about which the foot pivots.
 
-    The sensor at ``l`` from the pivot moves with v = -R_nb (omega x l) while the foot rolls over:
-    h(x) = v + R_nb (omega x l) is zero, with the rows [0, I, [R_nb u x], -R_nb [l x], 0],
-    u = omega x l.  A lever arm of zero is the paper's eq. (12).
+    With the pivot at ``l`` from the sensor, the sensor moves with v = -R_nb (omega x l) while the
+    foot rolls over: h(x) = v + R_nb (omega x l) is zero, with the rows [0, I, [R_nb u x],
+    -R_nb [l x], 0], u = omega x l.  A lever arm of zero is the paper's eq. (12).
     """
     o = foot * FOOT
     lever = C_FOOT + foot * C_STRIDE + C_LEVER

@@ -13,11 +13,13 @@ import inspect
 import os
 import subprocess
 import sys
+import tempfile
 import threading
 import types
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -81,21 +83,23 @@ def compiled() -> Engine:
         "correct": float64(w, int64),
         "turn": void(w, int64, int64, float64, float64, w, w),
     }
-    directory = cache_directory()
+    directory = _usable_cache()
     settings: Any = numba.config
-    before, settings.CACHE_DIR = settings.CACHE_DIR, str(directory)
+    before = settings.CACHE_DIR
+    settings.CACHE_DIR = before if directory is None else str(directory)
     try:
-        built = _dispatchers(numba.njit)
+        built = _dispatchers(numba.njit, directory is not None)
         for name, signature in signatures.items():
             built[name].compile(signature)
             built[name].disable_compile()
     finally:
         settings.CACHE_DIR = before
-    (directory / "ready").touch()
+    if directory is not None:
+        (directory / "ready").touch()
     return Engine("compiled", **{name: built[name] for name in ENTRIES})
 
 
-def _dispatchers(njit: Callable[..., Any]) -> dict[str, Any]:
+def _dispatchers(njit: Callable[..., Any], keep: bool) -> dict[str, Any]:
     """Copy every kernel function with the compiled ones in its globals, and wrap it."""
     built: dict[str, Any] = {}
     namespaces = {module.__name__: dict(vars(module)) for module in MODULES}
@@ -103,7 +107,7 @@ def _dispatchers(njit: Callable[..., Any]) -> dict[str, Any]:
         namespace = namespaces[function.__module__]
         copy = types.FunctionType(function.__code__, namespace, name, function.__defaults__)
         copy.__module__, copy.__qualname__ = function.__module__, function.__qualname__
-        built[name] = njit(cache=True)(copy) if name in ENTRIES else njit(copy)
+        built[name] = njit(cache=keep)(copy) if name in ENTRIES else njit(copy)
     for namespace in namespaces.values():
         namespace.update({name: item for name, item in built.items() if name in namespace})
     return built
@@ -115,12 +119,29 @@ def cache_directory() -> Path:
     ``DUALFOOT_CACHE_DIR`` overrides the user's cache directory.
     """
     text = b"".join(Path(m.__file__).read_bytes() for m in (layout, *MODULES) if m.__file__)
-    key = hashlib.sha256(text + sys.version.encode()).hexdigest()[:16]
+    key = hashlib.sha256(text + f"{sys.version} {_numba_version()}".encode()).hexdigest()[:16]
     home = os.environ.get("XDG_CACHE_HOME") or str(Path("~/.cache").expanduser())
     base = Path(os.environ.get("DUALFOOT_CACHE_DIR") or Path(home) / "dualfoot_ros")
     directory = base / f"kernel-{key}"
     directory.mkdir(parents=True, exist_ok=True)
     return directory
+
+
+def _numba_version() -> str:
+    try:
+        return metadata.version("numba")
+    except metadata.PackageNotFoundError:
+        return "none"
+
+
+def _usable_cache() -> Path | None:
+    """Return the cache directory; None where nothing can be written, and nothing is kept then."""
+    try:
+        directory = cache_directory()
+        with tempfile.TemporaryFile(dir=directory):
+            return directory
+    except OSError:
+        return None
 
 
 class BackgroundEngine:
@@ -147,7 +168,8 @@ class BackgroundEngine:
 
     def _prepare(self) -> None:
         try:
-            if not (cache_directory() / "ready").exists():
+            directory = _usable_cache()
+            if directory is not None and not (directory / "ready").exists():
                 command = [sys.executable, "-m", "dualfoot_ros.core.kernel"]
                 subprocess.run(command, check=False, stdout=subprocess.DEVNULL)
             self._ready = compiled()

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .core.parameters import Parameters, ParameterSpec, parameter
+from .timing import Sync
 
 SYNC_CHOICES = ("internal", "external")
 
@@ -143,8 +144,10 @@ class ReplayOptions(Parameters):
 
     bag: str = parameter("", "the bag to play: a folder of rosbag2, or a single mcap file")
     clock: bool = parameter(True, "publish /clock")
-    lossless: bool = parameter(
-        False, "as fast as the listeners follow, nothing lost (within one process)"
+    topic: str = parameter(
+        "data_raw",
+        "publish as raw samples, or as samples with equal stamps",
+        choices=("data_raw", "data_sync"),
     )
 
 
@@ -158,6 +161,7 @@ class BringupOptions(Parameters):
 
 
 GROUPS: dict[str, type[Parameters]] = {
+    "aligner": Sync,
     "input": Input,
     "frames": Frames,
     "path": Path,
@@ -168,12 +172,12 @@ GROUPS: dict[str, type[Parameters]] = {
     "play": Play,
 }
 NODES: dict[str, tuple[type[Parameters], tuple[str, ...]]] = {
-    "fusion": (FusionOptions, ("input", "frames", "path", "reports")),
+    "fusion": (FusionOptions, ("aligner", "input", "frames", "path", "reports")),
     "imu_adapter": (
         AdapterOptions,
         ("mounting", "units", "covariance", "play", "input", "reports"),
     ),
-    "time_sync": (Parameters, ("input", "reports")),
+    "time_sync": (Parameters, ("aligner", "input", "reports")),
     "replay": (ReplayOptions, ("play", "reports")),
     "bringup": (BringupOptions, ()),
 }

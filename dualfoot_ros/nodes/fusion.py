@@ -1,0 +1,128 @@
+"""Node ``fusion``: two streams of samples in, the trajectories of feet and person out."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from rclpy.node import Node
+from sensor_msgs.msg import Imu
+from std_srvs.srv import Trigger
+
+from ..core import DualFootTracker, ImuPair, TrackerConfig
+from ..core.config import all_specs
+from ..core.trajectory import FEET
+from ..options import Frames, FusionOptions, Reports, node_specs
+from ..options import Input as InputOptions
+from ..options import Path as PathOptions
+from ..timing import Aligner, Sync
+from . import qos
+from .diagnostics import Reporter
+from .health import Health
+from .messages import imu_values, pose_yaw, to_ns
+from .outputs import Outputs
+from .parameters import declare, group
+from .shell import Graph, Program, run_nodes
+from .suspicion import UnitSuspicion
+from .watch import Input, Watch
+
+PROGRAM = Program(
+    "fusion",
+    "Track both feet: left|right/imu/data_raw (or data_sync) in; left|right/odometry,\n"
+    "left|right/path and odometry (the person between the feet) out.",
+    "  ros2 run dualfoot_ros fusion\n"
+    "  ros2 run dualfoot_ros fusion --ros-args --params-file config/liu2023.yaml\n"
+    "  ros2 run dualfoot_ros fusion --ros-args -p method:=zupt \\\n"
+    "      -r left/imu/data_raw:=/imu_a/data -r right/imu/data_raw:=/imu_b/data",
+    (*node_specs("fusion"), *all_specs()),
+)
+
+
+class FusionNode(Node):
+    """Aligns the streams, feeds the tracker, publishes what it says."""
+
+    def __init__(self, **options: Any) -> None:
+        """Take the options of :class:`rclpy.node.Node`; raise ConfigError for bad parameters."""
+        super().__init__("fusion", **options)
+        values = declare(self, [*node_specs("fusion"), *all_specs()])
+        own = group(FusionOptions, values)
+        frames = group(Frames, values, "frames.")
+        tracker = {spec.name: values[spec.name] for spec in all_specs()}
+        config = TrackerConfig.from_mapping(tracker)
+        self.tracker = DualFootTracker(config, engine=own.engine)
+        self.aligner = Aligner(group(Sync, values, "aligner."))
+        path = group(PathOptions, values, "path.")
+        self.outputs = Outputs(self, frames, path, config.noise.gyro, own.publish_tf)
+        self._listen(group(InputOptions, values, "input."), own.sync)
+        self._obey(frames.odom)
+        self.health = Health(self, own.sync)
+        period = group(Reports, values, "reports.").period
+        self._reporter = Reporter(self, period, self.health.collect)
+
+    def _listen(self, options: InputOptions, sync: str) -> None:
+        topic = "imu/data_raw" if sync == "internal" else "imu/data_sync"
+        profile = qos.sensor(options.depth)
+        self.suspicions = {
+            foot: UnitSuspicion(f"the {foot} foot", self.get_logger().warning) for foot in FEET
+        }
+        self.inputs = {
+            foot: Input(self, Imu, f"{foot}/{topic}", self._receiver(foot), profile)
+            for foot in FEET
+        }
+        self.watch = Watch(self, list(self.inputs.values()), options.silence)
+
+    def _obey(self, frame_id: str) -> None:
+        self._frame_id = frame_id
+        self._service = self.create_service(Trigger, "~/reset", self._reset)
+        self._initial_pose = self.create_subscription(
+            PoseWithCovarianceStamped, "initialpose", self._set_pose, qos.result(1)
+        )
+
+    def _receiver(self, foot: str) -> Any:
+        def receive(message: Imu) -> None:
+            values = imu_values(message)
+            self.suspicions[foot].look(values.tolist())
+            for pair in self.aligner.push(foot, to_ns(message.header.stamp), values):
+                self._track(pair)
+
+        return receive
+
+    def _track(self, pair: ImuPair) -> None:
+        update = self.tracker.add(pair)
+        self.health.add(update)
+        self.outputs.publish(update)
+
+    def _reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self.tracker.reset()
+        self.aligner.reset()
+        self.outputs.clear()
+        self.get_logger().info("reset: stand still until the alignment is done")
+        response.success = True
+        response.message = "aligning anew: stand still"
+        return response
+
+    def _set_pose(self, message: PoseWithCovarianceStamped) -> None:
+        log = self.get_logger()
+        if message.header.frame_id not in ("", self._frame_id):
+            log.warning(
+                f"initialpose is in frame '{message.header.frame_id}' and was ignored; "
+                f"allowed is '{self._frame_id}'"
+            )
+            return
+        found = pose_yaw(message.pose.pose)
+        if found is None:
+            log.warning("initialpose is not finite and was ignored")
+            return
+        position, yaw = found
+        self.tracker.set_pose(position.tolist(), yaw)
+        log.info(f"pose set to {position.round(3).tolist()} m, heading {yaw:.3f} rad")
+
+
+def main() -> int:
+    """Run the node."""
+    return run_nodes(PROGRAM, lambda: Graph([FusionNode()]))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,140 @@
+"""Node ``replay``: a recorded bag becomes topics again, with /clock."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.task import Future
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Imu
+
+from ..core.series import ImuSeries
+from ..core.trajectory import FEET
+from ..options import Play, ReplayOptions, Reports, node_specs
+from ..recording import RecordingError, read_bag
+from . import qos
+from .diagnostics import Reporter, Status
+from .messages import new_imu, set_imu_values, set_time
+from .parameters import declare, group
+from .player import Player, Sample, in_order
+from .shell import Graph, Program, run_nodes
+from .watch import watched_publisher
+
+DEPTH = 2000
+CLOCK_STEP_NS = 5_000_000
+PROGRAM = Program(
+    "replay",
+    "Publish the samples of a bag as left|right/imu/data_raw, and /clock; ends with the bag.",
+    "  ros2 run dualfoot_ros replay --ros-args -p bag:=bags/demo\n"
+    "  ros2 run dualfoot_ros replay --ros-args -p bag:=walk.mcap -p play.rate:=4.0 "
+    "-p play.loop:=true",
+    tuple(node_specs("replay")),
+)
+
+
+class ReplayNode(Node):
+    """Publishes a recording; ``done`` is completed at its end.
+
+    With a ``gate`` samples go out one by one as it opens, so that within one process nothing is
+    lost at any speed.
+    """
+
+    def __init__(self, *, gate: Callable[[], bool] | None = None, **options: Any) -> None:
+        """Take the options of :class:`rclpy.node.Node`.
+
+        Raises
+        ------
+        ConfigError
+            For bad parameters.
+        RecordingError
+            When the bag cannot be read or has no samples.
+        """
+        super().__init__("replay", **options)
+        values = declare(self, node_specs("replay"))
+        own = group(ReplayOptions, values)
+        self.series, frames = _read(own.bag)
+        self.done: Future = Future()
+        self._messages = {foot: new_imu(frames[foot]) for foot in self.series}
+        self._out = {
+            foot: watched_publisher(self, Imu, f"{foot}/imu/{own.topic}", qos.sensor(DEPTH))
+            for foot in self.series
+        }
+        self._clock_publisher = (
+            self.create_publisher(Clock, "/clock", qos.clock()) if own.clock else None
+        )
+        self._clock_ns = 0
+        self.player = Player(
+            lambda: in_order(self.series),
+            self._publish,
+            group(Play, values, "play."),
+            ready=self._subscribed,
+            gate=gate,
+            finished=self._finish,
+        )
+        self._reporter = Reporter(self, group(Reports, values, "reports.").period, self._collect)
+        self.player.start()
+
+    def _subscribed(self) -> bool:
+        return all(publisher.get_subscription_count() for publisher in self._out.values())
+
+    def _publish(self, sample: Sample) -> None:
+        if (
+            self._clock_publisher is not None
+            and abs(sample.due_ns - self._clock_ns) >= CLOCK_STEP_NS
+        ):
+            self._publish_clock(sample.due_ns)
+        message = self._messages[sample.foot]
+        set_time(message.header.stamp, sample.stamp_ns)
+        set_imu_values(message, sample.values)
+        self._out[sample.foot].publish(message)
+
+    def _publish_clock(self, now_ns: int) -> None:
+        assert self._clock_publisher is not None
+        message = Clock()
+        set_time(message.clock, now_ns)
+        self._clock_publisher.publish(message)
+        self._clock_ns = now_ns
+
+    def _finish(self) -> None:
+        self.get_logger().info(f"played {self.player.played} samples, the bag is over")
+        self.done.set_result(True)
+
+    def _collect(self, status: Status) -> None:
+        status.values["played"] = self.player.played
+        status.values["samples"] = sum(len(each) for each in self.series.values())
+
+    def destroy_node(self) -> None:
+        """Stop playing, then destroy the node."""
+        self.player.stop()
+        super().destroy_node()
+
+
+def _read(bag: str) -> tuple[dict[str, ImuSeries], dict[str, str]]:
+    if not bag:
+        raise RecordingError("parameter 'bag' is empty; allowed is the path of a bag to play")
+    recording = read_bag(Path(bag).expanduser())
+    found = {foot: recording.imu(foot) for foot in FEET}
+    series = {foot: each for foot, each in found.items() if each is not None and len(each)}
+    if not series:
+        raise RecordingError(
+            f"bag '{bag}' has no samples on /left/imu/data_raw or /right/imu/data_raw"
+        )
+    return series, {foot: recording.frame(foot) for foot in series}
+
+
+def _build() -> Graph:
+    node = ReplayNode()
+    return Graph([node], node.done)
+
+
+def main() -> int:
+    """Run the node until the bag is over."""
+    return run_nodes(PROGRAM, _build)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

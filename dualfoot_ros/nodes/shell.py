@@ -1,0 +1,139 @@
+"""Start-up and shutdown of every executable of the package, in one place.
+
+SIGINT and SIGTERM end a program with exit code 0; a wrong parameter, file or argument with 2 and
+one sentence on stderr.
+"""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+from rclpy.utilities import remove_ros_args
+
+from ..core.errors import DualFootError
+from ..core.parameters import ParameterSpec
+
+STOPPED = (KeyboardInterrupt, ExternalShutdownException)
+
+
+@dataclass(frozen=True)
+class Program:
+    """What ``--help`` says about an executable."""
+
+    name: str
+    summary: str
+    examples: str
+    specs: Sequence[ParameterSpec] = ()
+
+    def check_arguments(self, argv: Sequence[str]) -> None:
+        """Answer --help and refuse arguments that ROS does not take away."""
+        parser = argparse.ArgumentParser(
+            prog=self.name,
+            description=self.summary,
+            epilog=f"examples:\n{self.examples}\nparameters (-p NAME:=VALUE):\n{self._table()}",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            usage=f"{self.name} [-h] [--ros-args -p NAME:=VALUE --params-file YAML -r FROM:=TO]",
+        )
+        parser.parse_args(remove_ros_args(["", *argv])[1:])
+
+    def _table(self) -> str:
+        lines = [
+            f"  {spec.name}  {spec.description} ({spec.allowed}; default {spec.default!r})"
+            for spec in self.specs
+        ]
+        return "\n".join(lines)
+
+
+@dataclass(frozen=True)
+class Graph:
+    """Nodes of one process; the program ends when ``done`` is (never, when it is None)."""
+
+    nodes: Sequence[Node]
+    done: Future | None = None
+
+
+def run_nodes(
+    program: Program, build: Callable[[], Graph], argv: Sequence[str] | None = None
+) -> int:
+    """Run the nodes that ``build`` makes until a signal or their end; return the exit code."""
+    argv = sys.argv[1:] if argv is None else list(argv)
+    program.check_arguments(argv)
+    try:
+        with started(argv):
+            _spin(build())
+    except STOPPED:
+        return 0
+    except DualFootError as error:
+        return _refuse(program, str(error))
+    except OSError as error:
+        return _refuse(program, str(error))
+    finally:
+        _ignore_signals()
+    return 0
+
+
+@contextmanager
+def started(argv: Sequence[str]) -> Iterator[None]:
+    """Have the default context of rclpy for the block; always shut it down.
+
+    Raises
+    ------
+    DualFootError
+        When ROS cannot read its arguments or parameter files.
+    """
+    try:
+        rclpy.init(args=["", *argv])
+    except RuntimeError as error:
+        reason = " ".join(str(error).split())
+        raise DualFootError(f"the arguments of ROS cannot be read: {reason}") from None
+    try:
+        yield
+    except Exception:
+        if rclpy.ok():
+            raise
+        # The signal came between two steps of the start-up, and the context was gone for the next.
+        raise ExternalShutdownException from None
+    finally:
+        _ignore_signals()
+        rclpy.try_shutdown()
+
+
+def _spin(graph: Graph) -> None:
+    executor = SingleThreadedExecutor()
+    try:
+        for node in graph.nodes:
+            executor.add_node(node)
+        if graph.done is None:
+            executor.spin()
+        else:
+            executor.spin_until_future_complete(graph.done)
+    finally:
+        _ignore_signals()
+        executor.shutdown()
+        destroy(graph.nodes)
+
+
+def destroy(nodes: Iterable[Node]) -> None:
+    """Destroy nodes, those first that were made last."""
+    for node in reversed(list(nodes)):
+        node.destroy_node()
+
+
+def _ignore_signals() -> None:
+    """A terminal can deliver SIGINT twice; the second must not interrupt the shutdown."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+
+
+def _refuse(program: Program, reason: str) -> int:
+    sys.stderr.write(f"{program.name}: error: {reason}\n")
+    return 2

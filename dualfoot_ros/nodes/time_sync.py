@@ -1,0 +1,93 @@
+"""Node ``time_sync``: two raw streams in, two streams with equal stamps out."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+from rclpy.node import Node
+from sensor_msgs.msg import Imu
+
+from ..core.series import ImuPair
+from ..core.trajectory import FEET
+from ..options import Input as InputOptions
+from ..options import Reports, node_specs
+from ..timing import Aligner, Sync
+from . import qos
+from .diagnostics import WARN, Rates, Reporter, Status
+from .messages import imu_values, new_imu, set_imu_values, set_time, to_ns
+from .parameters import declare, group
+from .shell import Graph, Program, run_nodes
+from .watch import Input, Watch, watched_publisher
+
+PROGRAM = Program(
+    "time_sync",
+    "Bring left/imu/data_raw and right/imu/data_raw on one time grid: left|right/imu/data_sync.",
+    "  ros2 run dualfoot_ros time_sync\n"
+    "  ros2 run dualfoot_ros time_sync --ros-args -p aligner.rate:=200.0",
+    tuple(node_specs("time_sync")),
+)
+
+
+class TimeSyncNode(Node):
+    """Publishes every pair the aligner completes, as two messages with one stamp."""
+
+    def __init__(self, **options: Any) -> None:
+        """Take the options of :class:`rclpy.node.Node`; raise ConfigError for bad parameters."""
+        super().__init__("time_sync", **options)
+        values = declare(self, node_specs("time_sync"))
+        inputs = group(InputOptions, values, "input.")
+        self.aligner = Aligner(group(Sync, values, "aligner."))
+        self._messages = {foot: new_imu(f"{foot}_imu") for foot in FEET}
+        profile = qos.sensor(inputs.depth)
+        self._out = {
+            foot: watched_publisher(self, Imu, f"{foot}/imu/data_sync", profile) for foot in FEET
+        }
+        self.inputs = {
+            foot: Input(self, Imu, f"{foot}/imu/data_raw", self._receiver(foot), profile)
+            for foot in FEET
+        }
+        self.watch = Watch(self, list(self.inputs.values()), inputs.silence)
+        self._rates = Rates()
+        self._reporter = Reporter(self, group(Reports, values, "reports.").period, self._collect)
+
+    def _receiver(self, foot: str) -> Any:
+        def receive(message: Imu) -> None:
+            self._describe(foot, message)
+            stamp_ns = to_ns(message.header.stamp)
+            for pair in self.aligner.push(foot, stamp_ns, imu_values(message)):
+                self._publish(pair)
+
+        return receive
+
+    def _describe(self, foot: str, received: Imu) -> None:
+        """Pass on what interpolation does not change."""
+        message = self._messages[foot]
+        message.header.frame_id = received.header.frame_id
+        message.angular_velocity_covariance = received.angular_velocity_covariance
+        message.linear_acceleration_covariance = received.linear_acceleration_covariance
+
+    def _publish(self, pair: ImuPair) -> None:
+        for k, foot in enumerate(FEET):
+            message = self._messages[foot]
+            set_time(message.header.stamp, pair.stamp_ns)
+            set_imu_values(message, pair.values[6 * k : 6 * k + 6])
+            self._out[foot].publish(message)
+
+    def _collect(self, status: Status) -> None:
+        counters = self.aligner.counters
+        rates = self._rates.since_last(counters)
+        self.watch.describe(status)
+        status.values["pair rate (Hz)"] = rates["pairs"]
+        status.values.update(counters)
+        if rates["late"] > 0:
+            status.note(WARN, "samples of one foot come too late and are dropped")
+
+
+def main() -> int:
+    """Run the node."""
+    return run_nodes(PROGRAM, lambda: Graph([TimeSyncNode()]))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,144 @@
+"""Says within seconds, and by name, why an input is silent."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from rclpy.clock import Clock, ClockType
+from rclpy.event_handler import (
+    PublisherEventCallbacks,
+    SubscriptionEventCallbacks,
+    UnsupportedEventTypeError,
+)
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile, qos_policy_name_from_kind
+
+from .diagnostics import ERROR, Status
+
+LOOK_EVERY = 0.25  # s
+
+
+class Input:
+    """A subscription that counts what arrives and knows why nothing does."""
+
+    def __init__(
+        self,
+        node: Node,
+        message_type: Any,
+        topic: str,
+        callback: Callable[[Any], None],
+        profile: QoSProfile,
+    ) -> None:
+        self.received = 0
+        self.last_s = time.monotonic()
+        self.incompatible = ""
+        self._node, self._callback = node, callback
+        self._type_name = _type_name(message_type)
+        self._subscription = _with_events(
+            lambda events: node.create_subscription(
+                message_type, topic, self._receive, profile, event_callbacks=events
+            ),
+            SubscriptionEventCallbacks(incompatible_qos=self._on_incompatible),
+            SubscriptionEventCallbacks(),
+        )
+
+    @property
+    def topic(self) -> str:
+        """Full name of the topic."""
+        return str(self._subscription.topic_name)
+
+    def _receive(self, message: Any) -> None:
+        self.received += 1
+        self.last_s = time.monotonic()
+        self._callback(message)
+
+    def _on_incompatible(self, event: Any) -> None:
+        self.incompatible = qos_policy_name_from_kind(event.last_policy_kind)
+
+    def complaint(self, silence_s: float) -> str | None:
+        """Return why nothing came for ``silence_s``, or None when something did."""
+        silent_s = time.monotonic() - self.last_s
+        if silent_s < silence_s:
+            return None
+        publishers = self._node.get_publishers_info_by_topic(self.topic)
+        types = {p.topic_type for p in publishers} - {self._type_name}
+        if not publishers:
+            return f"topic '{self.topic}' has no publisher"
+        if types:
+            return (
+                f"topic '{self.topic}' is published as {', '.join(sorted(types))}; "
+                f"expected is {self._type_name}"
+            )
+        if self.incompatible:
+            return (
+                f"topic '{self.topic}' has a publisher whose QoS does not fit "
+                f"({self.incompatible}), so nothing arrives"
+            )
+        return (
+            f"topic '{self.topic}' has {len(publishers)} publisher(s) but was silent for "
+            f"{silent_s:.1f} s"
+        )
+
+
+class Watch:
+    """Looks at the inputs of a node by the wall clock and warns once for each new complaint."""
+
+    def __init__(self, node: Node, inputs: Sequence[Input], silence_s: float) -> None:
+        self._node, self._inputs, self._silence_s = node, inputs, silence_s
+        self._said: dict[str, str | None] = {}
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(LOOK_EVERY, self._look, clock=steady)
+
+    def describe(self, status: Status) -> None:
+        """Put what is missing, and how much has arrived, into a report."""
+        for each in self._inputs:
+            status.values[f"received {each.topic}"] = each.received
+            complaint = each.complaint(self._silence_s)
+            if complaint is not None:
+                status.note(ERROR, complaint)
+
+    def _look(self) -> None:
+        for each in self._inputs:
+            complaint = each.complaint(self._silence_s)
+            kind = complaint and complaint.split(" for ")[0]
+            if kind == self._said.get(each.topic):
+                continue
+            self._said[each.topic] = kind
+            if complaint is not None:
+                self._node.get_logger().warning(complaint)
+            else:
+                self._node.get_logger().info(f"topic '{each.topic}' delivers")
+
+
+def watched_publisher(node: Node, message_type: Any, topic: str, profile: QoSProfile) -> Publisher:
+    """Return a publisher that warns when a subscriber asks for a QoS it does not offer."""
+
+    def warn(event: Any) -> None:
+        policy = qos_policy_name_from_kind(event.last_policy_kind)
+        node.get_logger().warning(
+            f"a subscriber of '{publisher.topic_name}' asks for a QoS that is not offered "
+            f"({policy}) and receives nothing"
+        )
+
+    publisher = _with_events(
+        lambda events: node.create_publisher(message_type, topic, profile, event_callbacks=events),
+        PublisherEventCallbacks(incompatible_qos=warn),
+        PublisherEventCallbacks(),
+    )
+    return publisher
+
+
+def _with_events(create: Callable[[Any], Any], wanted: Any, fallback: Any) -> Any:
+    """Create with event callbacks, or without where the middleware has no such events."""
+    try:
+        return create(wanted)
+    except UnsupportedEventTypeError:
+        return create(fallback)
+
+
+def _type_name(message_type: Any) -> str:
+    package = message_type.__module__.split(".")[0]
+    return f"{package}/msg/{message_type.__name__}"

@@ -23,6 +23,7 @@ from .update import Update
 
 LIMIT = 500.0  # m/s^2 and rad/s; no foot-mounted sensor reads more
 MAX_GAP_NS = 200_000_000  # a longer gap is bridged, not integrated
+RATES_HZ = (5.0, 5000.0)  # beyond these the stamps are wrong, and memory must stay bounded
 TIME_JUMP_NS = 1_000_000_000  # further back than this is a new recording, not disorder
 
 
@@ -90,8 +91,19 @@ class DualFootTracker:
         """Move and turn both tracks so that the person is at ``position`` (3,) m facing ``yaw``.
 
         Takes effect with the next pair that is tracked.
+
+        Raises
+        ------
+        ConfigError
+            When ``position`` is not three finite numbers or ``yaw`` is not finite.
         """
-        self._pose = (np.array(position, dtype=np.float64), float(yaw))
+        place = np.array(position, dtype=np.float64)
+        if place.shape != (3,) or not (np.isfinite(place).all() and math.isfinite(yaw)):
+            raise ConfigError(
+                f"pose is {place.tolist()} m, {yaw} rad; allowed are three finite numbers and a "
+                "finite heading"
+            )
+        self._pose = (place, float(yaw))
 
     def add(self, pair: ImuPair) -> Update:
         """Take one pair; total: bad data gives a counted, named refusal, never an exception."""
@@ -160,7 +172,7 @@ class DualFootTracker:
             if len(self._early) < 20:
                 return
             intervals = np.diff([s for s, _ in self._early])
-            rate = 1e9 / max(1.0, float(np.median(intervals)))
+            rate = float(np.clip(1e9 / max(1.0, float(np.median(intervals))), *RATES_HZ))
             self._standstill = Standstill(self.config.alignment, self.config.gravity, rate)
             self._rate_hz = rate
             early, self._early = self._early, []

@@ -82,16 +82,17 @@ class Workspace:
     ) -> None:
         """Start both feet from a standstill, side by side about ``origin`` (3,); forget the past.
 
-        ``forward`` is the heading (rad) that the feet stand across.
+        ``forward`` is the heading (rad) that the feet stand across and the body x axes are given.
         """
         w = self.w
         w[: at.STATE] = 0.0
         c, s = math.cos(forward), math.sin(forward)
+        turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
         for foot, still in enumerate(stills):
             o = foot * at.FOOT
             aside = config.initial.spacing * (0.5 - foot)
             w[o + at.POS : o + at.POS + 3] = origin + np.array([-s * aside, c * aside, 0.0])
-            rotation = still.levelling()
+            rotation = turn @ still.levelling()
             w[o + at.ROT : o + at.ROT + 9] = rotation.ravel()
             w[o + at.BG : o + at.BG + 3] = still.angular_rate
             norm = math.sqrt(float(still.specific_force @ still.specific_force))

@@ -6,6 +6,7 @@ import argparse
 from dataclasses import replace
 
 from ..recording import Recording, Topics, read_bag
+from ..recording.checks import require_usable
 from .progress import progress
 
 
@@ -20,6 +21,23 @@ def add_topic_arguments(parser: argparse.ArgumentParser) -> None:
             default=topics.of(foot).imu,
             help=f"sensor_msgs/Imu topic of the {foot} foot (default: %(default)s)",
         )
+
+
+def add_usable_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what :func:`load_usable` needs."""
+    add_topic_arguments(parser)
+    parser.add_argument(
+        "--allow-nan",
+        action="store_true",
+        help="leave out samples with nan or inf and count them, instead of refusing the bag",
+    )
+
+
+def load_usable(path: str, args: argparse.Namespace) -> Recording:
+    """Read the bag ``path``; raise RecordingError when its samples cannot be evaluated."""
+    recording = load_bag(path, args)
+    require_usable(recording, allow_not_finite=args.allow_nan)
+    return recording
 
 
 def load_bag(path: str, args: argparse.Namespace) -> Recording:

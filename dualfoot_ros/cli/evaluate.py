@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .bags import add_topic_arguments, load_bag
+from .bags import add_usable_arguments, load_usable
 
 if TYPE_CHECKING:
     from ..core import TrackerConfig
@@ -45,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
     parser.add_argument("--no-plots", action="store_true", help="write no figures to DIR")
     _add_alignment(parser)
-    add_topic_arguments(parser)
+    add_usable_arguments(parser)
 
 
 def _add_alignment(parser: argparse.ArgumentParser) -> None:
@@ -86,7 +86,7 @@ def run(args: argparse.Namespace) -> int:
         check_directory(args.output)
     options = _options(args)
     config = _config(args)
-    recording = _with_reference(load_bag(args.bag, args), args.reference)
+    recording = _with_reference(load_usable(args.bag, args), args.reference)
     trajectory = track(recording, config)
     found = evaluate(
         trajectory, truth=truth_of(recording), reference=recording.reference, options=options

@@ -34,17 +34,19 @@ def require_usable(
 ) -> tuple[ImuSeries, ImuSeries]:
     """Return the samples of both feet.
 
-    With ``allow_not_finite`` samples with nan or inf are left to be refused and counted.
+    With ``allow_not_finite`` samples with nan or inf are left to be refused and counted.  Whether
+    there is a standstill is left to the tracker, whose parameters decide.
 
     Raises
     ------
     RecordingError
-        With the sentence of the first error that :func:`findings` has.
+        With the sentence of the first other error that :func:`findings` has.
     """
     for finding in findings(recording):
-        if finding.name == "not_finite" and allow_not_finite:
-            continue
-        if finding.severity == "error":
+        left_to_others = finding.name == "no_standstill" or (
+            finding.name == "not_finite" and allow_not_finite
+        )
+        if finding.severity == "error" and not left_to_others:
             raise RecordingError(finding.sentence)
     assert recording.left is not None and recording.right is not None
     return recording.left, recording.right
@@ -89,8 +91,9 @@ def _missing(recording: Recording) -> Iterator[Finding]:
         if others
         else "record the sensor_msgs/Imu topics of both feet"
     )
-    what = "either foot" if len(absent) == 2 else f"the {absent[0]} foot"
-    yield Finding("error", "missing", f"there are no samples of {what} ({topics}); {hint}")
+    there = [f for f in FEET if f not in absent]
+    what = f"only the {there[0]} foot has samples" if there else "neither foot has samples"
+    yield Finding("error", "missing", f"{what}, there are none on {topics}; {hint}")
 
 
 def _samples(foot: str, q: Quality) -> Iterator[Finding]:
@@ -98,9 +101,9 @@ def _samples(foot: str, q: Quality) -> Iterator[Finding]:
         yield Finding(
             "error",
             "not_finite",
-            f"{foot} foot: {q.not_finite} of {q.samples} samples are not finite (nan or inf), the "
-            f"first is sample {q.first_not_finite}; repair the driver or the export and record "
-            "again",
+            f"{foot} foot: {q.not_finite} of {q.samples} samples are not finite (nan or inf), "
+            f"the first is sample {q.first_not_finite}; repair the driver or the export, or leave "
+            "them out with 'dualfoot evaluate --allow-nan'",
         )
     if q.usable < 2:
         yield Finding(

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .bags import add_usable_arguments, load_usable
+from .settings import setting
 
 if TYPE_CHECKING:
     from ..core import TrackerConfig
@@ -108,26 +109,10 @@ def _options(args: argparse.Namespace) -> Any:
 def _config(args: argparse.Namespace) -> TrackerConfig:
     from ..presets import load_config
 
-    overrides = dict(_setting(text) for text in args.set)
+    overrides = dict(setting(text) for text in args.set)
     if args.method is not None:
         overrides["method"] = args.method
     return load_config(args.config, overrides)
-
-
-def _setting(text: str) -> tuple[str, Any]:
-    """Return name and value of ``KEY=VALUE``, the value as YAML reads it."""
-    import yaml
-
-    from ..core.errors import ConfigError
-
-    key, equals, value = text.partition("=")
-    if not (key and equals and value):
-        raise ConfigError(f"--set {text!r} is not understood; allowed is KEY=VALUE")
-    try:
-        loaded = yaml.safe_load(value)
-        return key, float(loaded) if isinstance(loaded, str) else loaded  # YAML 1.1: 1e-3 is text
-    except (ValueError, yaml.YAMLError):
-        return key, value
 
 
 def _with_reference(recording: Recording, path: str | None) -> Recording:

@@ -5,6 +5,7 @@ from .config import MOUNTS, Gait, WalkConfig
 from .errors import SimulationError
 from .routes import ROUTES, Route, route
 from .sensors import GRADES, SensorConfig, grade
+from .summary import summary
 from .walk import Simulation, Walk, rigid_pair, simulate, walk
 
 __all__ = [
@@ -23,5 +24,6 @@ __all__ = [
     "rigid_pair",
     "route",
     "simulate",
+    "summary",
     "walk",
 ]

@@ -40,7 +40,7 @@ class Mount:
 
 
 MOUNTS = {
-    "instep": Mount((-0.06, 0.01, 0.09), (8.0, 28.0, 3.0), 0.15),
+    "instep": Mount((-0.08, 0.01, 0.09), (8.0, 28.0, 3.0), 0.15),
     "heel": Mount((-0.20, 0.02, 0.06), (3.0, -12.0, 2.0), 0.20),
 }
 
@@ -119,7 +119,7 @@ class Gait(Parameters):
         0.06, "relative spread of the swing's rotation and lift", minimum=0.0, maximum=0.2
     )
     clearance: float = parameter(
-        0.03, "lift of the ball of the swinging foot", unit="m", minimum=0.0, maximum=0.2
+        0.05, "lift of the ball of the swinging foot", unit="m", minimum=0.0, maximum=0.2
     )
     toe_out: float = parameter(
         0.10, "outward angle of the feet", unit="rad", minimum=-0.3, maximum=0.5

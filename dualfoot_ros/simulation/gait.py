@@ -15,7 +15,7 @@ from ..core.series import FloatArray
 from .footprints import HEEL_STRIKE, TOE_OFF
 
 FOOT_LENGTH_M = 0.17  # from the heel's edge to the ball
-MIDDLE_M = 0.10  # from the point about which the flat foot turns to the ball
+MIDDLE_M = 0.12  # from the point about which the flat foot turns to the ball
 
 _KEYS = {
     # nose-down pitch, rad
@@ -73,7 +73,7 @@ _KEYS = {
     # lift of the ball, relative
     "lift": (
         (0.0, TOE_OFF, 0.38, 0.55, 0.70, HEEL_STRIKE, 1.0),
-        (0.0, 0.0, 1.0, 0.7, 0.8, 0.0, 0.0),
+        (0.0, 0.1, 1.0, 0.6, 0.5, 0.0, 0.0),
     ),
 }
 
@@ -120,7 +120,7 @@ def give(pitch: FloatArray, slow: FloatArray) -> FloatArray:
     """Return how far the ball yields, in m down, because the shoe first turns about its middle.
 
     Slow rotation of the stance (``slow``, rad) and the first of the heel's rise (``pitch``, rad)
-    turn the shoe about a point behind the sensor, 10 cm behind the ball; only then the ball takes
+    turn the shoe about a point behind the sensor, 12 cm behind the ball; only then the ball takes
     over.  On real walks plain ZUPT climbs by 15-30 mm a stride for that.
     """
     first = 0.08 * np.tanh(np.maximum(pitch, 0.0) / 0.08)

@@ -41,7 +41,8 @@ class PassPlan:
     """Steps that pass a standing foot, and when and how closely they are wanted to.
 
     ``row`` (M,) is the landing, ``start`` and ``end`` (M,) s bound the stance of the other foot,
-    ``time_s`` (M,) and ``distance`` (M,) m are wanted.
+    ``time_s`` (M,) and ``distance`` (M,) m are wanted where ``free`` (M,), which is not on stairs:
+    there the treads say where the feet go.
     """
 
     row: np.ndarray
@@ -49,6 +50,7 @@ class PassPlan:
     end: FloatArray
     time_s: FloatArray
     distance: FloatArray
+    free: np.ndarray
 
 
 def pass_plan(
@@ -63,7 +65,12 @@ def pass_plan(
     turn = np.abs(route.heading(prints.progress[row]) - route.heading(prints.progress[row - 1]))
     distance = config.min_distance + gait.min_distance_std * scatter[1]
     return PassPlan(
-        row, start, end, start + kappa * (end - start), distance + gait.turn_widening * turn
+        row=row,
+        start=start,
+        end=end,
+        time_s=start + kappa * (end - start),
+        distance=distance + gait.turn_widening * turn,
+        free=~(prints.stair[row - 1] | prints.stair[row] | prints.stair[row + 1]),
     )
 
 
@@ -78,7 +85,7 @@ def tune(walkers: tuple[Walker, Walker], prints: Footprints, wanted: PassPlan) -
         near = np.maximum(wanted.time_s - 0.12, wanted.start), wanted.time_s + 0.12
         time_s, distance = least(motions, lever(1), lever(-1), *near)
         for walker in walkers:
-            mine = prints.side[wanted.row] == walker.side
+            mine = wanted.free & (prints.side[wanted.row] == walker.side)
             at = np.searchsorted(walker.rows, wanted.row[mine])
             late = ((time_s - wanted.time_s) / swing)[mine]
             near_by = (wanted.distance - distance)[mine]
@@ -115,10 +122,16 @@ def least(
 def passes(
     motions: tuple[ShoeMotion, ShoeMotion], config: WalkConfig, prints: Footprints, plan: PassPlan
 ) -> Passes:
-    """Return the passes as they truly are: the least distance within each stance."""
+    """Return the passes as they truly are: the least distance within each stance.
+
+    Where the distance only falls or only rises (on some stairs) there is no pass.
+    """
     if len(plan.row) == 0:
         return NO_PASSES
     lever = config.mount.lever_of
     time_s, distance = least(motions, lever(1), lever(-1), plan.start, plan.end, 161)
     kappa = (time_s - plan.start) / (plan.end - plan.start)
-    return Passes(time_s, distance, kappa, -prints.side[plan.row])
+    inside = (kappa > 0.02) & (kappa < 0.98)
+    return Passes(
+        time_s[inside], distance[inside], kappa[inside], -prints.side[plan.row[inside]]
+    )

@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 from ..core.series import FloatArray, ImuSeries, IntArray, PoseSeries
 from .clocks import ClockConfig, Sampling, sample_times
 from .config import WalkConfig
+from .errors import SimulationError
 from .footprints import Footprints, plan
 from .motion import ShoeMotion, Walker
 from .passing import NO_PASSES, Passes, pass_plan, passes, tune
@@ -115,7 +116,14 @@ def rigid_pair(walked: Walk, separation: float = 0.014) -> Walk:
     """Return the walk with both sensors on the right shoe, ``separation`` m apart along it.
 
     The "left" sensor is the hinder one; both share one mounting rotation (Chen et al. 2022).
+
+    Raises
+    ------
+    SimulationError
+        When the separation is not between 1 mm and 0.3 m.
     """
+    if not 0.001 <= separation <= 0.3:
+        raise SimulationError(f"separation is {separation:g} m; allowed is 0.001 to 0.3 m")
     shoe, lever, mounting = walked.shoes[1], walked.levers[1], walked.mountings[1]
     half = np.array([0.5 * separation, 0.0, 0.0])
     return replace(

@@ -157,3 +157,26 @@ def test_a_sensor_mounted_on_the_instep_is_pitched_by_28_degrees():
     force = lap().left.specific_force[:500].mean(axis=0)
     assert np.degrees(np.arctan2(-force[0], force[2])) == pytest.approx(28.0, abs=3.0)
     assert force[1] < 0.0 < lap().right.specific_force[:500].mean(axis=0)[1]
+
+
+def test_the_two_feet_walk_alike_each_the_mirror_image_of_the_other():
+    simulation = lap()
+    left, right = simulation.left.angular_rate, simulation.right.angular_rate
+    np.testing.assert_allclose(left.std(axis=0), right.std(axis=0), rtol=0.1)
+    skew = [np.mean(rate**3, axis=0) / np.mean(rate**2, axis=0) ** 1.5 for rate in (left, right)]
+    np.testing.assert_allclose(skew[0], skew[1] * [-1.0, 1.0, -1.0], atol=0.3)
+
+
+def test_on_stairs_the_feet_keep_apart_sideways():
+    walked = walk(WalkConfig(route="stairs"), seed=1)
+    time_s = np.arange(walked.footprints.flat_s[14], walked.footprints.flat_s[24], 0.01)
+    left = walked.shoes[0].position(time_s, walked.levers[0])
+    right = walked.shoes[1].position(time_s, walked.levers[1])
+    assert np.all(left[:, 1] - right[:, 1] > 0.06)
+
+
+@pytest.mark.parametrize("route", ["stairs", "rectangle"])
+def test_every_listed_pass_is_a_minimum_inside_the_stance(route):
+    kappa = walk(WalkConfig(route=route), seed=1).passes.kappa
+    assert len(kappa) > 40
+    assert np.all((kappa > 0.02) & (kappa < 0.98))

@@ -1,0 +1,249 @@
+"""``dualfoot simulate``: a walk with exact truth, as a bag."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from .progress import progress
+from .settings import setting
+
+if TYPE_CHECKING:
+    from ..core import PoseSeries
+    from ..recording import Recording
+    from ..simulation import ClockConfig, SensorConfig, Simulation, WalkConfig
+
+HELP = "simulate a walk with a sensor on each foot and exact truth, as a bag"
+EXAMPLES = """\
+examples:
+  dualfoot simulate -o walk                                 a rectangle, consumer sensors, 100 Hz
+  dualfoot simulate -o lap --route track --rate 200 --seed 7
+  dualfoot simulate -o eight --route figure_eight --laps 3 --stops 4 --errors mirrored
+  dualfoot simulate -o heels --mounting heel --set gait.min_distance=0.25
+  dualfoot simulate -o clocks --set right_clock.offset=12.5 --set right_clock.drift=40
+  dualfoot simulate -o board --route L --one-shoe 0.014     two sensors on the right shoe
+  dualfoot simulate --list                                  routes, mountings, grades, parameters
+"""
+GROUPS = ("gait", "sensor", "left_clock", "right_clock")
+PLAIN = ("route", "laps", "speed", "rate", "mounting", "standing", "stops", "stop_duration")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of the verb."""
+    parser.add_argument("-o", "--output", metavar="BAG", help="rosbag2 folder to write")
+    parser.add_argument(
+        "--list", action="store_true", help="show what there is to choose, and end"
+    )
+    parser.add_argument("--seed", type=int, default=0, help="seed of all chance (default: 0)")
+    _add_walk(parser)
+    _add_sensor(parser)
+    parser.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        help="any other parameter by its dotted name, see --list; may be repeated",
+    )
+    _add_output(parser)
+
+
+def _add_walk(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("walk")
+    group.add_argument("--route", metavar="R", help="where to walk (default: rectangle)")
+    group.add_argument("--laps", type=int, metavar="N", help="how often, on a closed route")
+    group.add_argument("--speed", type=float, metavar="M/S", help="walking speed (default: 1.2)")
+    group.add_argument("--stops", type=int, metavar="N", help="stops on the way (default: 0)")
+    group.add_argument("--stop-duration", type=float, metavar="S", help="length of each stop")
+    group.add_argument("--standing", type=float, metavar="S", help="standstill at the start")
+
+
+def _add_sensor(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("sensors")
+    group.add_argument("--rate", type=float, metavar="HZ", help="60 to 400 (default: 100)")
+    group.add_argument("--mounting", metavar="M", help="instep or heel (default: instep)")
+    group.add_argument("--grade", default="consumer", help="quality (default: %(default)s)")
+    group.add_argument(
+        "--errors",
+        choices=("independent", "mirrored"),
+        default="independent",
+        help="how the errors of the two feet go together (default: %(default)s)",
+    )
+    group.add_argument(
+        "--one-shoe",
+        type=float,
+        metavar="M",
+        help="put both sensors on the right shoe, this far apart along it",
+    )
+
+
+def _add_output(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("output")
+    group.add_argument(
+        "--truth-rate",
+        type=float,
+        metavar="HZ",
+        help="thin the truth in the bag to about this rate (default: that of the samples)",
+    )
+    group.add_argument(
+        "--storage",
+        choices=("mcap", "sqlite3"),
+        default="mcap",
+        help="storage of the bag (default: %(default)s)",
+    )
+    group.add_argument("--overwrite", action="store_true", help="replace an existing bag")
+    group.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Simulate, write the bag and say what is in it; return the exit code."""
+    from ..simulation import SimulationError
+
+    if args.list:
+        return _list(args)
+    if args.output is None:
+        raise SimulationError("no output given; name the bag to write with -o BAG")
+    if args.seed < 0:
+        raise SimulationError(f"--seed is {args.seed}; allowed is a whole number from 0")
+    if args.truth_rate is not None and not args.truth_rate > 0.0:
+        raise SimulationError(f"--truth-rate is {args.truth_rate:g}; allowed is more than 0 Hz")
+    return _simulate(args)
+
+
+def _simulate(args: argparse.Namespace) -> int:
+    from ..recording import write_bag
+    from ..simulation import rigid_pair, simulate, walk
+
+    walk_config, sensor, clocks = configurations(args)
+    walked = walk(walk_config, args.seed)
+    if args.one_shoe is not None:
+        walked = rigid_pair(walked, args.one_shoe)
+    simulation = simulate(walked, sensor, clocks, args.seed)
+    recording = _recording(simulation, args)
+    with progress(f"writing {args.output}") as update:
+        write_bag(
+            args.output,
+            recording,
+            storage=args.storage,
+            overwrite=args.overwrite,
+            progress=update,
+        )
+    _report(args, simulation)
+    return 0
+
+
+def configurations(
+    args: argparse.Namespace,
+) -> tuple[WalkConfig, SensorConfig, tuple[ClockConfig, ClockConfig]]:
+    """Return what to simulate, from the options and the ``--set`` parameters.
+
+    Raises
+    ------
+    ConfigError
+        Naming the parameter, its value and what is allowed.
+    """
+    from dataclasses import asdict
+
+    from ..core.config import nested
+    from ..core.errors import ConfigError
+    from ..simulation import ClockConfig, SensorConfig, WalkConfig, grade
+
+    given = {name: getattr(args, name) for name in PLAIN}
+    walk = {name: value for name, value in given.items() if value is not None}
+    walk.update(nested(dict(setting(text) for text in args.set)))
+    groups = {name: walk.pop(name, {}) for name in GROUPS}
+    for name, values in groups.items():
+        if not isinstance(values, Mapping):
+            raise ConfigError(f"parameter '{name}' is a group; name one of its own, see --list")
+    sensor = {**asdict(grade(args.grade, args.errors)), **groups["sensor"]}
+    return (
+        WalkConfig.from_mapping({**walk, "gait": groups["gait"]}),
+        SensorConfig.from_mapping(sensor, "sensor."),
+        (
+            ClockConfig.from_mapping(groups["left_clock"], "left_clock."),
+            ClockConfig.from_mapping(groups["right_clock"], "right_clock."),
+        ),
+    )
+
+
+def _recording(simulation: Simulation, args: argparse.Namespace) -> Recording:
+    from ..recording import Recording
+
+    config = simulation.walk.config
+    notes = {
+        "source": "dualfoot simulate",
+        "route": f"{config.route}, {config.laps} x, seed {args.seed}",
+        "sensors": f"{args.grade}, {args.errors} errors, {config.mounting}, {config.rate:g} Hz",
+        "min_distance_m": f"{config.min_distance:g}",
+    }
+    step = 1 if args.truth_rate is None else max(1, round(config.rate / args.truth_rate))
+    return Recording(
+        left=simulation.left,
+        right=simulation.right,
+        left_truth=_thinned(simulation.left_truth, step),
+        right_truth=_thinned(simulation.right_truth, step),
+        notes=notes,
+    )
+
+
+def _thinned(truth: PoseSeries, step: int) -> PoseSeries:
+    """Return every ``step``-th pose, and the last one."""
+    import numpy as np
+
+    from ..core import PoseSeries
+
+    last = len(truth) - 1
+    keep = np.unique(np.append(np.arange(0, last + 1, step), last))
+    velocity = None if truth.velocity is None else truth.velocity[keep]
+    return PoseSeries(truth.stamp_ns[keep], truth.position[keep], truth.quaternion[keep], velocity)
+
+
+def _report(args: argparse.Namespace, simulation: Simulation) -> None:
+    from ..simulation import summary
+
+    facts = {"bag": args.output, "seed": args.seed, **summary(simulation)}
+    if args.json:
+        print(json.dumps(facts, allow_nan=False))
+        return
+    print(
+        f"{args.output}: {facts['route']}, {facts['distance_m']:.0f} m in "
+        f"{facts['duration_s']:.0f} s, {facts['left_samples']} + {facts['right_samples']} samples "
+        f"at {facts['rate_hz']:g} Hz, {facts['left_stances']} + {facts['right_stances']} stances"
+    )
+    if facts["passes"]:
+        print(
+            f"the feet pass {facts['passes']} times at {facts['min_distance_mean_m']:.3f} +- "
+            f"{facts['min_distance_std_m']:.3f} m, kappa {facts['kappa_mean']:.2f} +- "
+            f"{facts['kappa_std']:.2f}"
+        )
+
+
+def _list(args: argparse.Namespace) -> int:
+    """Show routes, mountings, grades and every parameter that ``--set`` takes."""
+    from ..simulation import GRADES, MOUNTS, ROUTES, ClockConfig, Gait, SensorConfig, WalkConfig
+
+    specs = [
+        *WalkConfig.specs(),
+        *Gait.specs("gait."),
+        *SensorConfig.specs("sensor."),
+        *ClockConfig.specs("left_clock."),
+        *ClockConfig.specs("right_clock."),
+    ]
+    routes = {name: kind.description for name, kind in ROUTES.items()}
+    if args.json:
+        parameters = {
+            s.name: {"default": s.default, "unit": s.unit, "allowed": s.allowed} for s in specs
+        }
+        found = {"routes": routes, "mountings": list(MOUNTS), "grades": list(GRADES)}
+        print(json.dumps({**found, "parameters": parameters}))
+        return 0
+    print("routes:")
+    for name, text in routes.items():
+        print(f"  {name:<14}{text}")
+    print(f"mountings: {', '.join(MOUNTS)}")
+    print(f"grades: {', '.join(GRADES)} (the defaults of sensor.* below are those of consumer)")
+    print("parameters:")
+    for spec in specs:
+        print(f"  {spec.name}={spec.default}  {spec.description}; {spec.allowed}")
+    return 0

@@ -1,0 +1,83 @@
+"""When samples reach the host: the delays of a Bluetooth Low Energy link.
+
+A device gathers some samples into one notification.  It leaves at the next connection event, the
+events being a fixed interval apart on the host's radio; an event may fail, and then the next one
+carries it.  Now and then the radio is busy with something else for a while (a stall).  At last the
+host takes its time to hand it over: mostly little, at times much (a Pareto tail).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.parameters import Parameters, parameter
+from ..core.series import FloatArray, IntArray
+
+
+@dataclass(frozen=True)
+class BleLink(Parameters):
+    """One link; the defaults are usual for a phone or a laptop."""
+
+    interval: float = parameter(
+        0.03, "between connection events", unit="s", minimum=0.0075, maximum=4.0
+    )
+    burst: int = parameter(10, "samples a notification", minimum=1, maximum=100)
+    least: float = parameter(
+        0.004, "delay that is always there", unit="s", minimum=0.0, maximum=1.0
+    )
+    preparation: float = parameter(
+        0.0005, "mean time the device takes to hand over", unit="s", minimum=0.0, maximum=0.1
+    )
+    failure: float = parameter(
+        0.1, "share of the connection events that fail", minimum=0.0, maximum=0.95
+    )
+    stall: float = parameter(0.1, "length of a stall", unit="s", minimum=0.0, maximum=10.0)
+    stall_period: float = parameter(
+        3.0, "mean time between stalls", unit="s", minimum=0.1, maximum=1e6
+    )
+    tail: float = parameter(
+        0.001, "scale of the host's Pareto delay", unit="s", minimum=0.0, maximum=0.1
+    )
+    tail_shape: float = parameter(
+        1.5, "exponent of its tail; smaller is heavier", minimum=0.5, maximum=10.0
+    )
+
+
+def arrivals(link: BleLink, sampled_ns: IntArray, rng: np.random.Generator) -> IntArray:
+    """Return the (N,) ns at which samples taken at ``sampled_ns`` (N,) reach the host.
+
+    Both are of the host's clock and never decrease; no sample arrives before it was taken.
+    """
+    if len(sampled_ns) == 0:
+        return np.empty(0, dtype=np.int64)
+    start = int(sampled_ns[0])
+    last = np.append(np.arange(link.burst - 1, len(sampled_ns) - 1, link.burst), -1)
+    ready = (sampled_ns[last] - start) * 1e-9
+    count = len(ready)
+    ready = ready + link.preparation * rng.exponential(size=count)
+    sent = _events(link, ready, float(rng.uniform(0.0, link.interval)), rng)
+    handed = sent + link.least + link.tail * rng.pareto(link.tail_shape, count)
+    received = start + np.ceil(np.maximum.accumulate(handed) * 1e9).astype(np.int64)
+    packet = np.minimum(np.arange(len(sampled_ns)) // link.burst, count - 1)
+    return received[packet]
+
+
+def _events(
+    link: BleLink, ready: FloatArray, phase: float, rng: np.random.Generator
+) -> FloatArray:
+    """Return the time (s) of the connection event that carries each notification."""
+    failed = rng.geometric(1.0 - link.failure, len(ready)) - 1
+    event = _next_event(link, ready, phase) + failed * link.interval
+    until = float(event[-1]) + 10.0 * link.stall_period
+    gaps = rng.exponential(link.stall_period, 2 * int(until / link.stall_period) + 20)
+    begin = np.cumsum(gaps + link.stall)
+    stall = np.searchsorted(begin, event, side="right") - 1
+    over = np.where(stall >= 0, begin[np.maximum(stall, 0)] + link.stall, -np.inf)
+    event = np.where(event < over, _next_event(link, over, phase), event)
+    return np.maximum.accumulate(event)
+
+
+def _next_event(link: BleLink, time_s: FloatArray, phase: float) -> FloatArray:
+    return phase + link.interval * np.ceil((time_s - phase) / link.interval)

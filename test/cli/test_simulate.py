@@ -1,0 +1,161 @@
+"""``dualfoot simulate`` as a user meets it."""
+
+import importlib.util
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from dualfoot_ros.cli.main import main
+from dualfoot_ros.evaluation.association import truth_at
+from dualfoot_ros.recording import read_bag
+from dualfoot_ros.simulation import ROUTES, SensorConfig, WalkConfig, simulate
+
+ROOT = Path(__file__).resolve().parents[2]
+SHORT = ["--route", "L", "--rate", "60", "--standing", "2"]
+
+
+def refusal(arguments, capsys):
+    """Return the sentence on standard error of a command that must end with exit code 2."""
+    assert main(["simulate", *arguments]) == 2
+    streams = capsys.readouterr()
+    assert streams.out == ""
+    assert streams.err.startswith("dualfoot simulate: error: ")
+    return streams.err
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_the_bag_holds_what_the_library_simulates(tmp_path, storage, capsys):
+    path = str(tmp_path / "walk")
+    assert main(["simulate", "-o", path, *SHORT, "--seed", "4", "--storage", storage]) == 0
+    assert "L, 52 m in" in capsys.readouterr().out
+    recording = read_bag(path)
+    made = simulate(WalkConfig(route="L", rate=60.0, standing=2.0), SensorConfig(), seed=4)
+    np.testing.assert_array_equal(recording.left.specific_force, made.left.specific_force)
+    np.testing.assert_array_equal(recording.right.stamp_ns, made.right.stamp_ns)
+    np.testing.assert_array_equal(recording.left_truth.position, made.left_truth.position)
+    np.testing.assert_allclose(
+        recording.right_truth.velocity, made.right_truth.velocity, atol=1e-12
+    )
+    assert recording.notes["route"] == "L, 1 x, seed 4"
+
+
+def test_thinned_truth_still_gives_the_position_between_to_a_millimetre(tmp_path):
+    path = str(tmp_path / "walk")
+    assert main(["simulate", "-o", path, "--route", "L", "--truth-rate", "25"]) == 0
+    made = simulate(WalkConfig(route="L"), SensorConfig(), seed=0)
+    thin = read_bag(path).left_truth
+    assert len(thin) < 0.26 * len(made.left_truth)
+    between = truth_at(made.left_truth.stamp_ns, thin)
+    np.testing.assert_allclose(between.position, made.left_truth.position, atol=2e-3)
+    error = np.sqrt(np.mean((between.position - made.left_truth.position) ** 2))
+    assert error < 2e-4
+
+
+def test_json_is_one_object_and_nothing_else(tmp_path, capsys):
+    path = str(tmp_path / "walk")
+    assert main(["simulate", "-o", path, *SHORT, "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["bag"] == path
+    assert facts["passes"] > 50
+    assert 0.1 < facts["min_distance_mean_m"] < 0.2
+
+
+def test_the_list_names_every_route_and_parameter(capsys):
+    assert main(["simulate", "--list"]) == 0
+    text = capsys.readouterr().out
+    for name in (*ROUTES, "gait.kappa", "sensor.g_sensitivity", "left_clock.drift"):
+        assert name in text
+    assert main(["simulate", "--list", "--json"]) == 0
+    assert set(json.loads(capsys.readouterr().out)["routes"]) == set(ROUTES)
+
+
+def test_parameters_of_every_group_can_be_set(tmp_path):
+    path = str(tmp_path / "walk")
+    settings = [
+        "gait.min_distance=0.2",
+        "sensor.accelerometer_bias=0",
+        "right_clock.offset=5.0",
+        "stops=1",
+    ]
+    arguments = [word for text in settings for word in ("--set", text)]
+    assert main(["simulate", "-o", path, *SHORT, *arguments]) == 0
+    recording = read_bag(path)
+    assert recording.right.stamp_ns[0] - recording.left.stamp_ns[0] == 5_000_000_000
+    assert recording.notes["min_distance_m"] == "0.2"
+
+
+def test_two_sensors_on_one_shoe_keep_their_distance(tmp_path):
+    path = str(tmp_path / "board")
+    assert main(["simulate", "-o", path, *SHORT, "--one-shoe", "0.05"]) == 0
+    recording = read_bag(path)
+    apart = recording.left_truth.position - recording.right_truth.position
+    np.testing.assert_allclose(np.linalg.norm(apart, axis=1), 0.05, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--route", "moon"], ("route", "moon", "rectangle")),
+        (["--rate", "1000"], ("rate", "1000", "[60, 400] Hz")),
+        (["--grade", "best"], ("grade", "best", "consumer")),
+        (["--route", "city", "--laps", "2"], ("laps is 2", "open")),
+        (["--stops", "500"], ("stops is 500", "allowed is 0 to")),
+        (["--seed", "-1"], ("--seed is -1", "from 0")),
+        (["--truth-rate", "0"], ("--truth-rate is 0", "more than 0 Hz")),
+        (["--one-shoe", "2"], ("separation is 2 m", "0.3 m")),
+        (["--set", "gait.kapa=0.5"], ("gait.kapa", "kappa")),
+        (["--set", "sensor.gyro_noise=much"], ("sensor.gyro_noise", "much")),
+        (["--set", "gait=3"], ("gait", "group")),
+        (["--set", "kappa"], ("KEY=VALUE",)),
+    ],
+)
+def test_what_cannot_be_simulated_is_refused_by_name_and_nothing_is_written(
+    arguments, words, tmp_path, capsys
+):
+    path = tmp_path / "walk"
+    said = refusal(["-o", str(path), *arguments], capsys)
+    for word in words:
+        assert word in said
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_an_output_it_says_how_to_give_one(capsys):
+    assert "-o BAG" in refusal([], capsys)
+
+
+def test_an_existing_bag_is_kept_unless_told_otherwise(tmp_path, capsys):
+    path = str(tmp_path / "walk")
+    assert main(["simulate", "-o", path, *SHORT]) == 0
+    before = {p.name: p.read_bytes() for p in Path(path).iterdir()}
+    capsys.readouterr()
+    assert path in refusal(["-o", path, *SHORT, "--seed", "9"], capsys)
+    assert {p.name: p.read_bytes() for p in Path(path).iterdir()} == before
+    assert main(["simulate", "-o", path, *SHORT, "--seed", "9", "--overwrite"]) == 0
+
+
+def test_help_has_examples_and_the_process_ends_with_zero():
+    command = [sys.executable, "-m", "dualfoot_ros", "simulate", "--help"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, cwd=ROOT)
+    assert done.returncode == 0
+    assert "dualfoot simulate -o walk" in done.stdout
+
+
+def test_the_demo_bag_is_what_the_script_makes(tmp_path):
+    spec = importlib.util.spec_from_file_location("make_bags", ROOT / "scripts" / "make_bags.py")
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    assert script.make(tmp_path) == 0
+    for name in script.BAGS:
+        fresh, kept = read_bag(tmp_path / name), read_bag(ROOT / "bags" / name)
+        for foot in ("left", "right"):
+            one, other = getattr(fresh, foot), getattr(kept, foot)
+            np.testing.assert_array_equal(one.stamp_ns, other.stamp_ns)
+            # A last bit of the motion may round to the next step of a quantised sample.
+            np.testing.assert_allclose(one.specific_force, other.specific_force, atol=5e-3)
+            np.testing.assert_allclose(one.angular_rate, other.angular_rate, atol=1.1e-3)
+            truth = getattr(fresh, f"{foot}_truth").position
+            np.testing.assert_allclose(truth, getattr(kept, f"{foot}_truth").position, atol=1e-6)

@@ -1,0 +1,50 @@
+"""The real walks with the defaults: what single-foot programs reach must be reached."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from dualfoot_ros.core import TrackerConfig
+from dualfoot_ros.evaluation import evaluate, track
+from dualfoot_ros.recording.importers import ImportOptions, import_recording
+
+
+def walks(folder: Path) -> list[Path]:
+    """Return the recordings of a folder of the data set."""
+    found = sorted(folder.glob("*.mat"))
+    assert found, f"no recordings in {folder}"
+    return found
+
+
+def evaluated(path: Path, method: str = "zupt"):
+    """Return the evaluation of one recording, no parameter set by hand."""
+    recording = import_recording(ImportOptions(sources=(path,)))
+    found = track(recording, TrackerConfig.from_mapping({"method": method}))
+    return evaluate(found, reference=recording.reference)
+
+
+@pytest.mark.parametrize("method", ["zupt", "idc"])
+@pytest.mark.parametrize("folder", ["rectangle_ccw", "rectangle_cw"])
+def test_the_right_foot_stands_once_on_every_marker_of_every_rectangle(dual_feet, folder, method):
+    for path in walks(dual_feet / folder):
+        errors = evaluated(path, method).marker_report["right"]
+        assert (errors.stances, errors.markers) == (21, 21), path.name
+        assert errors.rmse_m < 0.2, path.name
+
+
+def test_plain_zupt_meets_the_markers_as_well_as_the_good_single_foot_programs(dual_feet):
+    reports = [evaluated(p).marker_report["right"] for p in walks(dual_feet / "rectangle_ccw")]
+    assert np.median([report.rmse_m for report in reports]) <= 0.13
+
+
+def test_figures_of_eight_close_within_two_percent(dual_feet):
+    for path in walks(dual_feet / "figure_eight"):
+        assert evaluated(path).closure.mean_percent < 2.0, path.name
+
+
+def test_both_laps_of_the_running_track_close_within_two_and_a_half_percent(dual_feet):
+    for path in walks(dual_feet / "running_track"):
+        found = evaluated(path)
+        assert found.closure.mean_percent < 2.5, path.name
+        assert found.trajectory.left.distance_m == pytest.approx(398.0, rel=0.03)

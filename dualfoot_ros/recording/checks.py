@@ -92,8 +92,9 @@ def _missing(recording: Recording) -> Iterator[Finding]:
         else "record the sensor_msgs/Imu topics of both feet"
     )
     there = [f for f in FEET if f not in absent]
-    what = f"only the {there[0]} foot has samples" if there else "neither foot has samples"
-    yield Finding("error", "missing", f"{what}, there are none on {topics}; {hint}")
+    which = f"the {absent[0]} foot" if there else "either foot"
+    only = f", only the {there[0]} foot has some" if there else ""
+    yield Finding("error", "missing", f"there are no samples of {which} ({topics}){only}; {hint}")
 
 
 def _samples(foot: str, q: Quality) -> Iterator[Finding]:

@@ -1,0 +1,51 @@
+"""Recordings made up for the tests: a stand, then something that moves."""
+
+import numpy as np
+
+from dualfoot_ros.core import ImuSeries, PoseSeries
+from dualfoot_ros.recording import Recording, Reference
+
+RATE_HZ = 100.0
+GRAVITY = 9.80665
+
+
+def moving(seed=0, *, count=1200, stand=500, start_ns=10**18, bias=(0.01, -0.02, 0.03)):
+    """Return a foot that stands for ``stand`` samples and then swings, as in walking."""
+    rng = np.random.default_rng(seed)
+    stamps = start_ns + np.arange(count) * round(1e9 / RATE_HZ)
+    force = rng.normal(0.0, 0.01, (count, 3)) + np.array([0.0, 0.0, GRAVITY])
+    rate = rng.normal(0.0, 0.002, (count, 3)) + bias
+    swing = np.maximum(0.0, np.sin(2 * np.pi * np.arange(count - stand) / RATE_HZ))
+    rate[stand:, 1] += 7.0 * swing
+    force[stand:, 0] += 12.0 * swing
+    return ImuSeries(stamps, force, rate)
+
+
+def truth(stamps, seed=0):
+    """Return any true poses at ``stamps``."""
+    rng = np.random.default_rng(seed)
+    quaternion = rng.normal(size=(len(stamps), 4))
+    quaternion /= np.linalg.norm(quaternion, axis=1)[:, None]
+    return PoseSeries(
+        np.asarray(stamps),
+        rng.normal(size=(len(stamps), 3)),
+        quaternion,
+        rng.normal(size=(len(stamps), 3)),
+    )
+
+
+def recording(**parts):
+    """Return a recording of two feet with everything a bag can hold."""
+    left, right = moving(1), moving(2)
+    field = np.random.default_rng(3).normal(size=(len(left), 3)) * 5e-5
+    whole = {
+        "left": ImuSeries(left.stamp_ns, left.specific_force, left.angular_rate, field),
+        "right": right,
+        "left_truth": truth(left.stamp_ns[::10]),
+        "right_truth": truth(right.stamp_ns[::10], 1),
+        "reference": Reference(
+            "a tape measure", {"right": np.arange(6.0).reshape(2, 3)}, True, 12.5
+        ),
+        "notes": {"source": "made up"},
+    }
+    return Recording(**(whole | parts))

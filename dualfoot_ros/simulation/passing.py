@@ -132,6 +132,4 @@ def passes(
     time_s, distance = least(motions, lever(1), lever(-1), plan.start, plan.end, 161)
     kappa = (time_s - plan.start) / (plan.end - plan.start)
     inside = (kappa > 0.02) & (kappa < 0.98)
-    return Passes(
-        time_s[inside], distance[inside], kappa[inside], -prints.side[plan.row[inside]]
-    )
+    return Passes(time_s[inside], distance[inside], kappa[inside], -prints.side[plan.row[inside]])

@@ -6,6 +6,7 @@ from .errors import EvaluationError
 from .evaluate import Evaluation, evaluate
 from .frames import Align, Pair
 from .offline import track, truth_of
+from .published import published_trajectory
 
 __all__ = [
     "Align",
@@ -16,6 +17,7 @@ __all__ = [
     "Report",
     "demo_report",
     "evaluate",
+    "published_trajectory",
     "track",
     "truth_of",
 ]

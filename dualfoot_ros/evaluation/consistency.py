@@ -87,4 +87,7 @@ def attitude_error(estimate: FloatArray, truth: FloatArray) -> FloatArray:
 
 
 def _mean(error: FloatArray, covariance: FloatArray, at: IntArray) -> float:
-    return float(np.mean(nees(error[at], covariance[at]))) if len(at) else float("nan")
+    """Return the mean NEES at the epochs ``at``; nan without epochs or without a covariance."""
+    if len(at) == 0 or not np.isfinite(covariance[at]).all():
+        return float("nan")
+    return float(np.mean(nees(error[at], covariance[at])))

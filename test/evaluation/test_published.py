@@ -1,0 +1,84 @@
+"""What was published live, put together afterwards, is what an offline run gives."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from dualfoot_ros.core import DualFootTracker, FootTrajectory, ImuPair, TrackerConfig
+from dualfoot_ros.core.series import stack_pairs
+from dualfoot_ros.evaluation import EvaluationError, evaluate, published_trajectory
+from dualfoot_ros.simulation import WalkConfig, simulate
+from dualfoot_ros.timing import align
+
+
+@pytest.fixture(scope="module")
+def pairs():
+    """Return the samples of a straight walk, its first half minute, on one grid."""
+    made = simulate(WalkConfig(route="straight"), seed=6)
+    return align(made.left[:3000], made.right[:3000])
+
+
+def live(pairs, config):
+    """Return both feet as add() gave them, one epoch at a time, and the announced events."""
+    tracker = DualFootTracker(config, engine="compiled")
+    heard = {"left": [], "right": []}
+    events = []
+    for stamp, values in zip(pairs[0].stamp_ns, stack_pairs(*pairs), strict=True):
+        update = tracker.add(ImuPair(int(stamp), values))
+        events += update.announced
+        if update.left is not None:
+            for foot, messages in heard.items():
+                messages.append(message(update.stamp_ns, getattr(update, foot)))
+    return [rows(messages) for messages in heard.values()], events
+
+
+def message(stamp_ns, estimate):
+    """Return the values of a published estimate; covariances hold only until the next pair."""
+    pose = estimate.pose_covariance()
+    motion = estimate.position, estimate.velocity, estimate.quaternion, estimate.stance
+    return (
+        stamp_ns,
+        *motion,
+        estimate.stance,
+        pose[:3, :3],
+        estimate.twist_covariance(),
+        pose[3:, 3:],
+    )
+
+
+def rows(messages) -> FootTrajectory:
+    """Return one row a message, as a listener to the topic would collect them."""
+    return FootTrajectory(*(np.array(column) for column in zip(*messages, strict=True)))
+
+
+@pytest.mark.parametrize("method", ["zupt", "idc"])
+def test_it_is_the_trajectory_of_an_offline_run(pairs, method):
+    config = TrackerConfig.from_mapping({"method": method})
+    feet, events = live(pairs, config)
+    put_together = published_trajectory(*feet, events, method=method)
+    offline = DualFootTracker(config, engine="compiled").run(*pairs)
+    for foot in ("left", "right"):
+        one, other = getattr(put_together, foot), getattr(offline, foot)
+        np.testing.assert_array_equal(one.stamp_ns, other.stamp_ns)
+        np.testing.assert_array_equal(one.stance, other.stance)
+        for name in ("position", "velocity", "position_covariance", "attitude_covariance"):
+            np.testing.assert_allclose(getattr(one, name), getattr(other, name), atol=1e-12)
+        same = np.abs(np.sum(one.quaternion * other.quaternion, axis=1))
+        np.testing.assert_allclose(same, 1.0, atol=1e-12)
+
+
+def test_an_unknown_covariance_between_the_feet_leaves_its_nees_out(pairs):
+    feet, events = live(pairs, TrackerConfig.from_mapping({"method": "zupt"}))
+    made = simulate(WalkConfig(route="straight"), seed=6)
+    found = published_trajectory(*feet, events, method="zupt")
+    metrics = evaluate(found, truth=(made.left_truth, made.right_truth)).to_dict()
+    assert metrics["truth"]["nees"]["relative_position"] is None
+    assert metrics["truth"]["nees"]["left_position"] > 0
+
+
+def test_feet_of_different_stamps_are_refused(pairs):
+    feet, events = live(pairs, TrackerConfig.from_mapping({"method": "zupt"}))
+    late = replace(feet[1], stamp_ns=feet[1].stamp_ns + 1)
+    with pytest.raises(EvaluationError, match="different stamps"):
+        published_trajectory(feet[0], late, events, method="zupt")

@@ -1,6 +1,9 @@
 """What tests of several parts need: the real walks, where they are."""
 
 import os
+import subprocess
+import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -16,3 +19,20 @@ def dual_feet() -> Path:
     if not (folder / "README.md").exists():
         pytest.skip(f"the dual-feet data set is not in {folder}; set DUALFOOT_DATA to where it is")
     return folder
+
+
+@pytest.fixture(scope="session")
+def dualfoot() -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Run the command of this checkout as a process and return what it printed."""
+
+    def run(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+        paths = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
+        return subprocess.run(
+            [sys.executable, "-m", "dualfoot_ros", *map(str, arguments)],
+            capture_output=True,
+            text=True,
+            cwd=cwd,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
+        )
+
+    return run

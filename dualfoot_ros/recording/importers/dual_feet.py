@@ -15,6 +15,7 @@ import numpy as np
 from ...core.series import FloatArray, ImuSeries, IntArray
 from ..errors import RecordingError
 from ..recording import Recording
+from ..reference import Reference
 from . import axes
 from .counter import same_wrap, unwrap_us
 from .dual_feet_walks import reference_of
@@ -40,11 +41,10 @@ def load(options: ImportOptions) -> Recording:
     path = options.sources[0]
     walk = _read(path)
     left_ns, right_ns = same_wrap(_stamps(walk, path, "left"), _stamps(walk, path, "right"))
-    shape, direction = str(walk.get("pathshape", "")), int(walk.get("pathdirec", 0))
     return Recording(
         left=_series(walk, path, "left", left_ns),
         right=_series(walk, path, "right", right_ns),
-        reference=reference_of(shape, direction),
+        reference=_reference(walk),
         notes={
             "source": path.name,
             "format": "dual-feet",
@@ -64,6 +64,12 @@ def _read(path: Path) -> dict[str, Any]:
     except Exception as error:  # a broken file leads the reader to raise nearly anything
         reason = " ".join(str(error).split()) or type(error).__name__
         raise RecordingError(f"'{path}' is no readable .mat file ({reason})") from error
+
+
+def _reference(walk: dict[str, Any]) -> Reference | None:
+    direction = np.ravel(walk.get("pathdirec", 0))
+    clockwise = direction.dtype.kind in "fiu" and direction.size == 1 and direction[0] < 0
+    return reference_of(str(walk.get("pathshape", "")), -1 if clockwise else 1)
 
 
 def _field(walk: dict[str, Any], path: Path, foot: str, name: str) -> FloatArray:

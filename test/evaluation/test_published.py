@@ -40,7 +40,6 @@ def message(stamp_ns, estimate):
     return (
         stamp_ns,
         *motion,
-        estimate.stance,
         pose[:3, :3],
         estimate.twist_covariance(),
         pose[3:, 3:],

@@ -171,7 +171,7 @@ def test_the_covariance_after_the_exact_solution_is_j_p_j_along_the_final_separa
 
 
 def test_the_papers_iteration_need_not_converge():
-    """An uncertain direction across the separation: the iterates jump, the exact solution holds."""
+    """An uncertain direction across the separation: the iterates jump, the exact one holds."""
     r, c0 = [0.30, 0.02, 0.0], 0.10
     p = [[1e-4, 0.0, 0.0], [0.0, 0.04, 0.0], [0.0, 0.0, 1e-4]]
     distances = []
@@ -190,7 +190,9 @@ def test_nothing_happens_to_feet_that_are_within_c0(solver):
     space, r, _, _ = problem(2, 0.5)
     before = space.w.copy()
     c0 = min(1.0, 1.01 * float(np.linalg.norm(r)))
-    space.w[at.FOOT + at.POS : at.FOOT + at.POS + 3] = before[at.POS : at.POS + 3] + [0, 0.1, 0]
+    space.w[at.FOOT + at.POS : at.FOOT + at.POS + 3] = before[at.POS : at.POS + 3] + np.array(
+        [0.0, 0.1, 0.0]
+    )
     before = space.w.copy()
     outcome, _, _ = constrained(space, c0, solver=solver)
     assert not outcome.accepted

@@ -1,0 +1,62 @@
+"""Standing still: the track stays put, and its covariance tells no fairy tale."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from dualfoot_ros.core import DualFootTracker, TrackerConfig
+from dualfoot_ros.core.kernel import layout as at
+
+from .harness import Pairs, open_session, simulated, walk
+
+
+def standing(seed: int, seconds: float) -> Pairs:
+    return walk(route="standing", standing=seconds, final_standing=0.5, rate=100.0, seed=seed)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_standing_still_drifts_less_than_a_centimetre_in_a_minute(seed):
+    """Without the refinement that a tracker does while it stands: the filter alone must hold."""
+    pairs = standing(seed, 64.0)
+    session, start = open_session(TrackerConfig(), pairs)
+    out = np.zeros((len(pairs), at.OUT))
+    for _ in session.steps(pairs.stamps, pairs.dts, pairs.values, (start, len(pairs)), out):
+        pass
+    for foot in range(2):
+        track = out[start:, at.O_FOOT * foot : at.O_FOOT * foot + 3]
+        assert np.linalg.norm(track - track[0], axis=1).max() < 0.01
+
+
+def test_the_covariance_of_a_standing_foot_covers_its_drift():
+    """Over many stands, squared drift against its variance: not more than chi-square allows."""
+    nees = []
+    for seed in range(12):
+        pairs = standing(seed, 34.0)
+        session, start = open_session(TrackerConfig(), pairs)
+        out = np.zeros((len(pairs), at.OUT))
+        for _ in session.steps(pairs.stamps, pairs.dts, pairs.values, (start, len(pairs)), out):
+            pass
+        for foot in range(2):
+            drift = (
+                session._estimate.position(foot)
+                - out[start, at.O_FOOT * foot : at.O_FOOT * foot + 3]
+            )
+            P = session.space.covariance()[15 * foot : 15 * foot + 3, 15 * foot : 15 * foot + 3]
+            nees.append(float(drift @ np.linalg.solve(P, drift)))
+    assert np.mean(nees) < 3.0 * 1.7  # chi-square of 72 degrees of freedom, one in 10^5
+
+
+def test_a_tracker_that_stands_keeps_refining_and_says_so():
+    pairs = standing(1, 8.0)
+    tracker = DualFootTracker(engine="interpreted")
+    phases = [tracker.add(pair).phase for pair in pairs]
+    assert phases[-1] == "standing"
+    assert tracker.counters["alignment_restarts"] == 0
+
+
+def test_the_bias_found_while_standing_is_the_sensors_own():
+    made = simulated(route="standing", standing=20.0, final_standing=0.5, rate=100.0, seed=1)
+    session, _ = open_session(TrackerConfig(), standing(1, 20.0), seconds=20.0)
+    for still, series in zip(session._still.result(), (made.left, made.right), strict=True):
+        assert np.abs(still.angular_rate - series.angular_rate.mean(axis=0)).max() < 1e-3

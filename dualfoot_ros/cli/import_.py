@@ -12,6 +12,7 @@ from ..recording.atomic import check_target
 from ..recording.errors import RecordingError
 from ..recording.importers import FORMATS, ImportOptions, import_recording
 from ..recording.importers.axes import IDENTITY
+from ..recording.importers.units import FORCE_UNITS, RATE_UNITS
 from ..recording.open_bag import METADATA
 from ..recording.write import STORAGES
 from .progress import progress
@@ -23,6 +24,7 @@ examples:
   dualfoot import rectangle_ccw/XF_2Laces_ccw_1.mat -o walk
   dualfoot import --left L.csv --right R.csv -o walk
   dualfoot import --left L.csv --right R.csv --axes=+y-x+z --right-offset 162.49 -o walk
+  dualfoot import drive.mcap --left-topic /imu_l --right-topic /imu_r --rate-unit deg/s -o walk
 
 Axes and units of the bag: forward-left-up, m/s^2, rad/s, tesla. Stamps are those of the devices.
 What is known of the walk (floor markers, a closed loop) goes into reference.yaml in the bag.
@@ -31,14 +33,16 @@ What is known of the walk (floor markers, a closed loop) goes into reference.yam
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("source", nargs="*", type=Path, metavar="SOURCE", help="file to import")
+    parser.add_argument(
+        "source", nargs="*", type=Path, metavar="SOURCE", help="file or bag to import"
+    )
     parser.add_argument("-o", "--output", type=Path, metavar="BAG", help="bag to write (a folder)")
     names = ["auto", *(f.name for f in FORMATS)]
     parser.add_argument(
         "--format", default="auto", choices=names, help="format of the source (default: auto)"
     )
     parser.add_argument("--list", action="store_true", help="list the formats and exit")
-    for foot in ("left", "right"):
+    for foot in FEET:
         parser.add_argument(
             f"--{foot}", type=Path, metavar="FILE", help=f"file of the {foot} foot's sensor"
         )
@@ -47,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=IDENTITY,
         metavar="AXES",
         help="device axes that point forward, left and up, written --axes=+x+y+z "
-        "(default: %(default)s; xsens-dot only)",
+        "(default: %(default)s; not for dual-feet)",
     )
     parser.add_argument(
         "--right-offset",
@@ -63,10 +67,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="T",
         help="tesla per unit of the magnetometer; 0 leaves it out (default; xsens-dot only)",
     )
+    _add_bag_arguments(parser)
     parser.add_argument(
         "--storage", default="mcap", choices=STORAGES, help="storage of the bag (default: mcap)"
     )
     parser.add_argument("--overwrite", action="store_true", help="replace an existing bag")
+
+
+def _add_bag_arguments(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("bags of other programs (format rosbag)")
+    for foot in FEET:
+        group.add_argument(
+            f"--{foot}-topic", metavar="TOPIC", help=f"sensor_msgs/Imu topic of the {foot} foot"
+        )
+    group.add_argument(
+        "--force-unit", default="m/s^2", choices=FORCE_UNITS, help="unit of the specific force"
+    )
+    group.add_argument(
+        "--rate-unit", default="rad/s", choices=RATE_UNITS, help="unit of the angular rate"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -104,6 +123,10 @@ def _options(args: argparse.Namespace) -> ImportOptions:
         axes=args.axes,
         right_offset_s=args.right_offset,
         field_scale=args.field_scale,
+        left_topic=args.left_topic,
+        right_topic=args.right_topic,
+        force_unit=args.force_unit,
+        rate_unit=args.rate_unit,
     )
 
 

@@ -134,17 +134,18 @@ def _units(foot: str, q: Quality) -> Iterator[Finding]:
             "error",
             "rate_unit",
             f"{foot} foot: the angular rate exceeds {q.high_rate:.4g} for 2 % of the time, so it "
-            "is in deg/s and not in rad/s; set the unit in the driver (imu_adapter: "
-            "angular_rate_unit) and record again",
+            "is in deg/s and not in rad/s; convert the bag with 'dualfoot import BAG --rate-unit "
+            "deg/s -o NEW', and live set the unit in the driver or units.angular_rate of imu_adapter",
         )
 
 
 def _force_advice(gravity: float) -> str:
-    for unit, size in (("g", 1.0), ("mg", 1.0 / MILLI), ("mm/s^2", GRAVITY / MILLI)):
+    for unit, size in (("g", 1.0), ("mg", 1.0 / MILLI)):
         if abs(gravity / size - 1.0) < 0.2:
             return (
-                f", so it is in {unit} and not in m/s^2; set the unit in the driver "
-                "(imu_adapter: specific_force_unit) and record again"
+                f", so it is in {unit} and not in m/s^2; convert the bag with 'dualfoot import "
+                f"BAG --force-unit {unit} -o NEW', and live set the unit in the driver or "
+                "units.specific_force of imu_adapter"
             )
     if gravity < 3.0:
         return (
@@ -163,7 +164,7 @@ def _together(left: Quality, right: Quality) -> Iterator[Finding]:
             f"left and right do not overlap in time (left {left.start_s:.3f} to {left.end_s:.3f} "
             f"s, right {right.start_s:.3f} to {right.end_s:.3f} s), so the clocks of the devices "
             "were not synchronised; synchronise them and record again, or shift the right foot "
-            "with 'dualfoot import --right-offset SECONDS' "
+            "with 'dualfoot import SOURCE --right-offset SECONDS' "
             f"({left.start_s - right.start_s:.3f} if both were started at the same moment)",
         )
     ratio = left.rate_hz / right.rate_hz

@@ -1,16 +1,21 @@
 """Importers: units, axes and wrapping counters made explicit, damage said, real files read."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.io import savemat
 
-from dualfoot_ros.recording import RecordingError
+from dualfoot_ros.core import ImuSeries
+from dualfoot_ros.recording import RecordingError, Topics, write_bag
 from dualfoot_ros.recording.importers import FORMATS, ImportOptions, import_recording
 from dualfoot_ros.recording.importers import axes as device_axes
 from dualfoot_ros.recording.importers.counter import same_wrap, unwrap_us
 from dualfoot_ros.recording.importers.dual_feet_walks import reference_of
+
+from .samples import recording
 
 STEP_US = 16667
 HEADER = """\
@@ -57,8 +62,8 @@ def pair(tmp_path):
 
 
 def test_a_walk_of_the_data_set_comes_out_forward_left_up_in_si_units(tmp_path):
-    recording = import_recording(ImportOptions((walk(tmp_path / "w.mat"),)))
-    left = recording.left
+    found = import_recording(ImportOptions((walk(tmp_path / "w.mat"),)))
+    left = found.left
     assert left.stamp_ns.tolist() == [(1000 + k * STEP_US) * 1000 for k in range(20)]
     assert left.specific_force[4].tolist() == [6.0, -5.0, 7.0]  # forward = y, left = -x, up = z
     assert np.allclose(left.angular_rate[0], [0.2, -0.1, 0.3])
@@ -115,13 +120,13 @@ def test_a_lap_is_known_to_close_and_an_unknown_shape_is_not_guessed():
 
 
 def test_a_pair_of_exports_comes_out_in_si_units_with_its_stamps(pair):
-    recording = import_recording(ImportOptions(left=pair[0], right=pair[1]))
-    assert recording.right.stamp_ns.tolist() == [(7000 + k * STEP_US) * 1000 for k in range(20)]
-    assert recording.left.specific_force[2].tolist() == [3.0, 4.0, 5.0]
-    assert np.allclose(recording.left.angular_rate[0], np.deg2rad([10.0, 20.0, 30.0]))
-    assert recording.left.magnetic_field is None
-    assert recording.notes["sync_status"] == "left Un-synced, right Un-synced"
-    assert recording.notes["device_tag"] == "left B, right A"
+    found = import_recording(ImportOptions(left=pair[0], right=pair[1]))
+    assert found.right.stamp_ns.tolist() == [(7000 + k * STEP_US) * 1000 for k in range(20)]
+    assert found.left.specific_force[2].tolist() == [3.0, 4.0, 5.0]
+    assert np.allclose(found.left.angular_rate[0], np.deg2rad([10.0, 20.0, 30.0]))
+    assert found.left.magnetic_field is None
+    assert found.notes["sync_status"] == "left Un-synced, right Un-synced"
+    assert found.notes["device_tag"] == "left B, right A"
 
 
 def test_axes_turn_a_device_into_the_body_and_the_field_comes_when_its_unit_is_given(pair):
@@ -136,16 +141,16 @@ def test_exports_with_a_separator_line_or_semicolons_are_read(tmp_path, pair):
     marked = export(tmp_path / "S.csv", prefix="sep=,\n")
     semicolons = tmp_path / "C.csv"
     semicolons.write_text(pair[1].read_text().replace(",", ";"))
-    recording = import_recording(ImportOptions(left=marked, right=semicolons))
-    assert np.array_equal(recording.left.specific_force, plain.left.specific_force)
-    assert np.array_equal(recording.right.stamp_ns, plain.right.stamp_ns)
+    found = import_recording(ImportOptions(left=marked, right=semicolons))
+    assert np.array_equal(found.left.specific_force, plain.left.specific_force)
+    assert np.array_equal(found.right.stamp_ns, plain.right.stamp_ns)
 
 
 def test_an_offset_moves_the_right_foot_only(pair):
     options = ImportOptions(left=pair[0], right=pair[1], right_offset_s=162.490736)
-    recording = import_recording(options)
-    assert recording.left.stamp_ns[0] == 5_000_000
-    assert recording.right.stamp_ns[0] == 7_000_000 + 162_490_736_000
+    found = import_recording(options)
+    assert found.left.stamp_ns[0] == 5_000_000
+    assert found.right.stamp_ns[0] == 7_000_000 + 162_490_736_000
 
 
 @pytest.mark.parametrize("axes", ["+x+y+z", "+y-x+z", "-x-y+z", "+z+x+y", "-z+y+x"])
@@ -220,13 +225,49 @@ def test_sources_of_no_known_format_are_refused_with_the_known_ones(tmp_path):
             import_recording(options, name)
 
 
+def test_a_bag_with_other_topics_axes_and_units_comes_out_as_it_should_be(tmp_path):
+    good = recording()
+    wild = {
+        foot: ImuSeries(
+            good.imu(foot).stamp_ns,
+            good.imu(foot).specific_force[:, [1, 0, 2]] * [-1, 1, 1] / 9.80665,
+            np.rad2deg(good.imu(foot).angular_rate[:, [1, 0, 2]] * [-1, 1, 1]),
+        )
+        for foot in ("left", "right")
+    }
+    default = Topics()
+    topics = Topics(replace(default.left, imu="/a"), replace(default.right, imu="/b"))
+    source = write_bag(tmp_path / "wild", replace(good, **wild), topics=topics)
+    options = ImportOptions(
+        (source,),
+        axes="+y-x+z",
+        left_topic="/a",
+        right_topic="/b",
+        force_unit="g",
+        rate_unit="deg/s",
+    )
+    tamed = import_recording(options)
+    for foot in ("left", "right"):
+        assert np.array_equal(tamed.imu(foot).stamp_ns, good.imu(foot).stamp_ns)
+        assert np.allclose(tamed.imu(foot).specific_force, good.imu(foot).specific_force)
+        assert np.allclose(tamed.imu(foot).angular_rate, good.imu(foot).angular_rate)
+    assert tamed.reference.length_m == good.reference.length_m
+    with pytest.raises(RecordingError, match=r"has no topic '/c'; .* are: /a, /b"):
+        import_recording(replace(options, left_topic="/c"))
+    with pytest.raises(RecordingError, match="force unit is 'lb'; allowed is one of m/s"):
+        import_recording(replace(options, force_unit="lb"))
+
+
 def test_every_format_loads_by_its_name(tmp_path, pair):
     sources = {
         "dual-feet": ImportOptions((walk(tmp_path / "w.mat"),)),
         "xsens-dot": ImportOptions(left=pair[0], right=pair[1]),
     }
+    bag = write_bag(tmp_path / "bag", import_recording(sources["dual-feet"]))
+    sources["rosbag"] = ImportOptions((bag,))
     for known in FORMATS:
-        assert len(import_recording(sources[known.name], known.name).left) == 20
+        for name in (known.name, "auto"):
+            assert len(import_recording(sources[known.name], name).left) == 20
 
 
 def test_every_real_walk_imports_with_both_feet_standing_at_the_start(dual_feet):
@@ -235,11 +276,11 @@ def test_every_real_walk_imports_with_both_feet_standing_at_the_start(dual_feet)
     walks = sorted(dual_feet.glob("*/*.mat"))
     assert walks
     for path in walks:
-        recording = import_recording(ImportOptions((path,)))
-        objections = {finding.name for finding in findings(recording)}
+        found = import_recording(ImportOptions((path,)))
+        objections = {finding.name for finding in findings(found)}
         assert objections == ({"no_overlap"} if "unsynchronised" in str(path) else set()), path
-        assert recording.reference.closed_loop
-        norm = np.linalg.norm(recording.right.magnetic_field, axis=1).mean()
+        assert found.reference.closed_loop
+        norm = np.linalg.norm(found.right.magnetic_field, axis=1).mean()
         assert 20e-6 < norm < 80e-6
 
 

@@ -21,7 +21,7 @@ class Format:
 
     name: str
     description: str
-    suffix: str
+    suffixes: tuple[str, ...]
     module: str
 
     def load(self, options: ImportOptions) -> Recording:
@@ -30,18 +30,26 @@ class Format:
         return cast(Callable[[ImportOptions], Recording], module.load)(options)
 
 
+FOLDER = "/"
+BAG_SUFFIXES = (FOLDER, ".mcap", ".db3")
 FORMATS = (
     Format(
         "dual-feet",
         "one .mat file of the dual-feet data set (Ma and Särkkä 2023): two Xsens DOT, 60 Hz",
-        ".mat",
+        (".mat",),
         "dual_feet",
     ),
     Format(
         "xsens-dot",
         "two .csv exports of the Xsens DOT app, one a foot (--left, --right)",
-        ".csv",
+        (".csv",),
         "xsens_dot",
+    ),
+    Format(
+        "rosbag",
+        "a bag of two sensor_msgs/Imu topics with other names, axes or units (--left-topic ...)",
+        BAG_SUFFIXES,
+        "rosbag",
     ),
 )
 
@@ -60,19 +68,20 @@ def import_recording(options: ImportOptions, name: str = "auto") -> Recording:
     if not files:
         raise RecordingError("no source given; allowed is a file of a format in --list")
     for file in files:
-        if not file.is_file():
+        if not file.exists():
             raise RecordingError(f"there is no file '{file}'")
-    recording = _format(name, files[0].suffix.lower()).load(options)
+    suffix = FOLDER if files[0].is_dir() else files[0].suffix.lower()
+    recording = _format(name, suffix).load(options)
     return _shifted(recording, round(options.right_offset_s * 1e9))
 
 
 def _format(name: str, suffix: str) -> Format:
     for candidate in FORMATS:
-        if name == candidate.name or (name == "auto" and suffix == candidate.suffix):
+        if name == candidate.name or (name == "auto" and suffix in candidate.suffixes):
             return candidate
     names = ", ".join(f.name for f in FORMATS)
     if name == "auto":
-        known = ", ".join(f"{f.suffix} ({f.name})" for f in FORMATS)
+        known = ", ".join(f"{' or '.join(f.suffixes)} ({f.name})" for f in FORMATS)
         raise RecordingError(f"files '*{suffix}' are of no known format; known: {known}")
     raise RecordingError(f"format is '{name}'; allowed is auto, {names}")
 

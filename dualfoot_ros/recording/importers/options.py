@@ -19,6 +19,8 @@ class ImportOptions:
     axes : which device axes point forward, left and up, as ``axes.parse`` reads it
     right_offset_s : added to every stamp of the right foot, s
     field_scale : tesla per unit of the magnetometer, 0 leaves it out
+    left_topic, right_topic : sensor_msgs/Imu topics of a bag; None for those this package writes
+    force_unit, rate_unit : units of a bag's specific force and angular rate, as in ``units.py``
     """
 
     sources: tuple[Path, ...] = ()
@@ -27,3 +29,7 @@ class ImportOptions:
     axes: str = IDENTITY
     right_offset_s: float = 0.0
     field_scale: float = 0.0
+    left_topic: str | None = None
+    right_topic: str | None = None
+    force_unit: str = "m/s^2"
+    rate_unit: str = "rad/s"

@@ -1,0 +1,71 @@
+"""A bag of any two sensor_msgs/Imu topics: other names, axes, or units than they should be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ...core.series import FloatArray, ImuSeries
+from ...core.trajectory import FEET
+from ..errors import RecordingError
+from ..read import read_bag
+from ..recording import Recording
+from ..topics import Topics
+from . import axes
+from .options import ImportOptions
+from .units import FORCE_UNITS, RATE_UNITS, scale
+
+
+def load(options: ImportOptions) -> Recording:
+    """Load the one bag of ``options``, with its truth and reference, into SI and body axes.
+
+    Raises
+    ------
+    RecordingError
+        When it is no bag, a unit is unknown, or neither topic is there.
+    """
+    if len(options.sources) != 1 or options.left or options.right:
+        raise RecordingError("a bag holds both feet; give exactly one, without --left and --right")
+    rotation = axes.parse(options.axes)
+    force = scale("force unit", options.force_unit, FORCE_UNITS)
+    rate = scale("rate unit", options.rate_unit, RATE_UNITS)
+    default = Topics()
+    topics = Topics(
+        left=replace(default.left, imu=options.left_topic or default.left.imu),
+        right=replace(default.right, imu=options.right_topic or default.right.imu),
+    )
+    recording = read_bag(options.sources[0], topics=topics)
+    missing = [topics.of(foot).imu for foot in FEET if recording.imu(foot) is None]
+    if missing:
+        there = ", ".join(recording.imu_topics) or "none"
+        raise RecordingError(
+            f"'{options.sources[0]}' has no topic '{missing[0]}'; its sensor_msgs/Imu topics are: "
+            f"{there}; name two of them with --left-topic and --right-topic"
+        )
+    notes = {
+        **recording.notes,
+        "source": options.sources[0].name,
+        "format": "rosbag",
+        "axes": f"forward, left, up were {options.axes}",
+        "units": f"specific force was {options.force_unit}, angular rate {options.rate_unit}",
+    }
+    return replace(
+        recording,
+        left=_turned(recording.left, rotation, force, rate),
+        right=_turned(recording.right, rotation, force, rate),
+        notes=notes,
+        topics=default,
+    )
+
+
+def _turned(
+    series: ImuSeries | None, rotation: FloatArray, force: float, rate: float
+) -> ImuSeries | None:
+    if series is None:
+        return None
+    field = series.magnetic_field
+    return ImuSeries(
+        series.stamp_ns,
+        series.specific_force @ rotation.T * force,
+        series.angular_rate @ rotation.T * rate,
+        None if field is None else field @ rotation.T,
+    )

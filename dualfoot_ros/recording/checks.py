@@ -135,7 +135,8 @@ def _units(foot: str, q: Quality) -> Iterator[Finding]:
             "rate_unit",
             f"{foot} foot: the angular rate exceeds {q.high_rate:.4g} for 2 % of the time, so it "
             "is in deg/s and not in rad/s; convert the bag with 'dualfoot import BAG --rate-unit "
-            "deg/s -o NEW', and live set the unit in the driver or units.angular_rate of imu_adapter",
+            "deg/s -o NEW', and live set the unit in the driver or units.angular_rate of "
+            "imu_adapter",
         )
 
 

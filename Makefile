@@ -44,7 +44,7 @@ format: $(VENV)/.installed ## format the code with ruff
 	@$(BIN)/ruff check --fix --select I .
 	@$(BIN)/ruff format .
 
-config: $(VENV)/.installed ## write config/default.yaml from the declared parameters
+config: $(VENV)/.installed ## write the generated files of config/ from the declarations
 	@$(BIN)/python scripts/write_config.py
 
 bags: $(VENV)/.kernel ## regenerate the recordings in bags/

@@ -19,11 +19,12 @@ setup(
     python_requires=">=3.11",
     packages=[*find_packages(include=[NAME, f"{NAME}.*"]), f"{NAME}.config"],
     package_dir={f"{NAME}.config": "config"},
-    package_data={f"{NAME}.config": ["*.yaml"], NAME: ["py.typed"]},
+    package_data={f"{NAME}.config": ["*.yaml", "nodes/*.yaml"], NAME: ["py.typed"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
         (f"share/{NAME}", ["package.xml"]),
         (f"share/{NAME}/config", sorted(glob("config/*.yaml"))),
+        (f"share/{NAME}/config/nodes", sorted(glob("config/nodes/*.yaml"))),
         (f"share/{NAME}/launch", sorted(glob("launch/*.launch.py"))),
     ],
     zip_safe=False,

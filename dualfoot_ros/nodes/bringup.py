@@ -75,8 +75,15 @@ def _add_nodes(
         nodes.append(replay)
         return _when_quiet(replay, fusion)
     if settings.adapters:
-        nodes.extend(ImuAdapterNode(namespace=foot, **options) for foot in FEET)
+        space = nodes[0].get_namespace().rstrip("/")
+        nodes.extend(_adapter(f"{space}/{foot}", options) for foot in FEET)
     return None
+
+
+def _adapter(namespace: str, options: dict[str, Any]) -> Node:
+    """Make an adapter in its namespace, even where __ns:= is given for the whole process."""
+    arguments = [*(options.get("cli_args") or ["--ros-args"]), "-r", f"__ns:={namespace}"]
+    return ImuAdapterNode(**{**options, "namespace": namespace, "cli_args": arguments})
 
 
 def _with(options: dict[str, Any], *parameters: Parameter) -> dict[str, Any]:

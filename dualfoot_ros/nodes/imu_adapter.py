@@ -82,6 +82,7 @@ class ImuAdapterNode(Node):
             lambda: in_order(series),
             self._play,
             group(Play, values, "play."),
+            alive=self.context.ok,
             ready=lambda: self._out.get_subscription_count() > 0,
             finished=self._finish,
         )

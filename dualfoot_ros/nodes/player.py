@@ -42,6 +42,7 @@ def in_order(series: dict[str, ImuSeries]) -> Iterator[Sample]:
 class Player:
     """Hands every sample to ``publish`` when it is due.
 
+    ``alive`` tells whether ROS is still there to publish with (a signal can end it at any time),
     ``ready`` is asked before the first sample, ``gate`` before every one; with a gate the speed
     is that of whoever opens it, and ``play.rate`` has no meaning.  ``finished`` is called once at
     the end, from the thread, unless the player was stopped.
@@ -53,13 +54,14 @@ class Player:
         publish: Callable[[Sample], None],
         play: Play,
         *,
+        alive: Callable[[], bool] = lambda: True,
         ready: Callable[[], bool] = lambda: True,
         gate: Callable[[], bool] | None = None,
         finished: Callable[[], None] = lambda: None,
     ) -> None:
         self.played = 0
         self._samples, self._publish, self._play = samples, publish, play
-        self._ready, self._gate, self._finished = ready, gate, finished
+        self._alive, self._ready, self._gate, self._finished = alive, ready, gate, finished
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="player", daemon=True)
 
@@ -74,6 +76,13 @@ class Player:
             self._thread.join()
 
     def _run(self) -> None:
+        try:
+            self._play_all()
+        except Exception:
+            if self._alive():
+                raise
+
+    def _play_all(self) -> None:
         until = time.monotonic() + self._play.wait
         while not self._ready() and time.monotonic() < until and not self._stop.wait(0.01):
             pass

@@ -71,6 +71,7 @@ class ReplayNode(Node):
             lambda: in_order(self.series),
             self._publish,
             group(Play, values, "play."),
+            alive=self.context.ok,
             ready=self._subscribed,
             gate=gate,
             finished=self._finish,

@@ -16,13 +16,16 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, qos_policy_name_from_kind
 
-from .diagnostics import ERROR, Status
+from .diagnostics import ERROR, WARN, Status
 
 LOOK_EVERY = 0.25  # s
 
 
 class Input:
-    """A subscription that counts what arrives and knows why nothing does."""
+    """A subscription that counts what arrives and what was lost, and knows why nothing comes.
+
+    ``lost`` counts the holes in the publisher's own numbering, which no queue hides.
+    """
 
     def __init__(
         self,
@@ -33,6 +36,8 @@ class Input:
         profile: QoSProfile,
     ) -> None:
         self.received = 0
+        self.lost = 0
+        self._number: int | None = None
         self.last_s = time.monotonic()
         self.incompatible = ""
         self._node, self._callback = node, callback
@@ -50,9 +55,14 @@ class Input:
         """Full name of the topic."""
         return str(self._subscription.topic_name)
 
-    def _receive(self, message: Any) -> None:
+    def _receive(self, message: Any, info: dict[str, Any]) -> None:
         self.received += 1
         self.last_s = time.monotonic()
+        number = info.get("publication_sequence_number")
+        if number is not None:
+            if self._number is not None and number > self._number:
+                self.lost += number - self._number - 1
+            self._number = number
         self._callback(message)
 
     def _on_incompatible(self, event: Any) -> None:
@@ -89,6 +99,7 @@ class Watch:
     def __init__(self, node: Node, inputs: Sequence[Input], silence_s: float) -> None:
         self._node, self._inputs, self._silence_s = node, inputs, silence_s
         self._said: dict[str, str | None] = {}
+        self._lost: dict[str, int] = {}
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(LOOK_EVERY, self._look, clock=steady)
 
@@ -96,9 +107,13 @@ class Watch:
         """Put what is missing, and how much has arrived, into a report."""
         for each in self._inputs:
             status.values[f"received {each.topic}"] = each.received
+            status.values[f"lost {each.topic}"] = each.lost
             complaint = each.complaint(self._silence_s)
             if complaint is not None:
                 status.note(ERROR, complaint)
+            elif each.lost > self._lost.get(each.topic, 0):
+                status.note(WARN, f"samples on '{each.topic}' are lost before they get here")
+            self._lost[each.topic] = each.lost
 
     def _look(self) -> None:
         for each in self._inputs:

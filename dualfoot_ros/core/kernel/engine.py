@@ -171,7 +171,10 @@ class BackgroundEngine:
             directory = _usable_cache()
             if directory is not None and not (directory / "ready").exists():
                 command = [sys.executable, "-m", "dualfoot_ros.core.kernel"]
-                subprocess.run(command, check=False, stdout=subprocess.DEVNULL)
+                # A session of its own: Ctrl-C ends the caller, and the cache is filled all the same.
+                subprocess.run(
+                    command, check=False, stdout=subprocess.DEVNULL, start_new_session=True
+                )
             self._ready = compiled()
         except (ImportError, OSError):
             self._ready = None

@@ -171,7 +171,7 @@ class BackgroundEngine:
             directory = _usable_cache()
             if directory is not None and not (directory / "ready").exists():
                 command = [sys.executable, "-m", "dualfoot_ros.core.kernel"]
-                # A session of its own: Ctrl-C ends the caller, and the cache is filled all the same.
+                # A session of its own: Ctrl-C ends the caller only, and the cache is filled.
                 subprocess.run(
                     command, check=False, stdout=subprocess.DEVNULL, start_new_session=True
                 )

@@ -20,7 +20,7 @@ __all__ = [
     "PoseSeries",
     "PressureSeries",
     "SeriesError",
+    "TrackerConfig",
     "Trajectory",
     "Update",
-    "TrackerConfig",
 ]

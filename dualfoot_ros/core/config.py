@@ -1,4 +1,4 @@
-"""Every parameter of the tracker, with default, unit, range and meaning: the one source of them."""
+"""Every parameter of the tracker with default, unit, range and meaning: the one source."""
 
 from __future__ import annotations
 
@@ -147,6 +147,12 @@ class Zupt(Parameters):
         unit="m/s per rad/s",
         minimum=0.0,
         maximum=1.0,
+    )
+    still_std: float = parameter(
+        0.002, "velocity noise standing still", unit="m/s", minimum=1e-5, maximum=1.0
+    )
+    still_after: float = parameter(
+        1.5, "a stance this long is standing still", unit="s", minimum=0.2, maximum=1e6
     )
     lever_arm: float = parameter(
         0.09,

@@ -75,7 +75,7 @@ class Headings:
         self.forward, self.feet = yaw, (yaw, yaw)
 
     def stance(self, engine: Engine, foot: int, stamp: int, walking: bool) -> list[Event]:
-        """Attend to a new stance of ``foot``: turn it if that fixes its heading, else follow it."""
+        """Attend to a new stance of ``foot``: turn it if that fixes its heading, or follow it."""
         strides = self._strides[foot]
         if strides is None:
             if walking:

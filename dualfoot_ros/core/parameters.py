@@ -100,7 +100,7 @@ def check(spec: ParameterSpec, value: Any, prefix: str = "") -> Any:
     """Return ``value`` as the type of the parameter, or raise :class:`ConfigError` saying why."""
     try:
         value = _converted(spec.default, value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise _refusal(spec, value, prefix) from None
     if spec.choices is not None and value not in spec.choices:
         raise _refusal(spec, value, prefix)

@@ -60,6 +60,12 @@ class Session:
         self.use(engine)
         self._level()
 
+    @property
+    def spacing(self) -> tuple[float, float] | None:
+        """Distance of the feet side by side and its standard deviation, m, if it is in use."""
+        spacing = self._method.spacing
+        return None if spacing is None else (spacing.value_m, spacing.std_m)
+
     def use(self, engine: Engine) -> None:
         """Go on with another form of the kernel."""
         self._engine = engine
@@ -143,7 +149,7 @@ class Session:
                 if found:
                     yield k - 1, found
 
-    # --- attending to notices ----------------------------------------------------------------------
+    # --- attending to notices -------------------------------------------------------------------
 
     def _attend(self) -> Found:
         """Do what the newest epoch's notices ask for."""
@@ -157,7 +163,7 @@ class Session:
             elif bits[foot] & at.STANCE_ENDED:
                 found += self._stance_ended(foot)
         if notices & at.NOTICE_WATCH:
-            found += self._constrain("both", self._method.on_epoch(self._past))
+            found += self._constrain("both", self._method, self._method.on_epoch(self._past))
         return found
 
     def _clean_phases(self, bits: list[int]) -> None:
@@ -218,7 +224,7 @@ class Session:
         found += turned
         phase = self._phase(foot, self.space.epoch)
         for method in self._askable():
-            found += self._constrain(FEET[foot], method.on_stance_start(phase, self._past))
+            found += self._constrain(FEET[foot], method, method.on_stance_start(phase, self._past))
         return found
 
     def _askable(self) -> list[Method]:
@@ -233,10 +239,10 @@ class Session:
         self._past.ended[foot] = last
         phase = self._phase(foot, last)
         for method in self._askable():
-            found += self._constrain(FEET[foot], method.on_stance_end(phase, self._past))
+            found += self._constrain(FEET[foot], method, method.on_stance_end(phase, self._past))
         return found
 
-    def _constrain(self, foot: str, requests: Sequence[Request]) -> Found:
+    def _constrain(self, foot: str, method: Method, requests: Sequence[Request]) -> Found:
         """Apply what a method asked for: all at their moments, or all now."""
         if not requests:
             return []
@@ -247,6 +253,7 @@ class Session:
         else:
             outcomes = [request.apply(self._estimate) for request in requests]
         for request, outcome in zip(requests, outcomes, strict=True):
+            method.note(outcome)
             if outcome.accepted:
                 self._actions.append((request.epoch if request.roll_back else now, request.apply))
         if len(self._actions) > 4 * space.ring:
@@ -266,14 +273,14 @@ class Session:
             outcome.detail,
         )
 
-    # --- pose and gaps ----------------------------------------------------------------------------
+    # --- pose and gaps ---------------------------------------------------------------------------
 
     def can_set_pose(self) -> bool:
         """Return whether `set_pose` can be obeyed now: standing, or the heading is known."""
         return self.phase == "standing" or self.headings.known
 
     def set_pose(self, stamp: int, position: FloatArray, yaw: float) -> Found:
-        """Put the person at ``position`` (3,) m facing ``yaw``; return the turns of both tracks."""
+        """Put the person at ``position`` (3,) m facing ``yaw``; return both tracks' turns."""
         if self.phase == "standing":
             up_m = float(position[2] - self._origin[2])
             self._origin = position
@@ -283,8 +290,8 @@ class Session:
         else:
             found = self.headings.set_pose(self._engine, position, yaw, stamp)
             up_m = found[0].detail["shift"][2]
-        for aid in self._aids:
-            aid.shifted(up_m)
+        for method in (*self._aids, self._method):
+            method.moved(up_m)
         self._actions.clear()
         self.space.n[at.N_OLDEST] = self.space.epoch + 1
         return found

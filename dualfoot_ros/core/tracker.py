@@ -71,8 +71,13 @@ class DualFootTracker:
 
     @property
     def phase(self) -> str:
-        """ "aligning", "standing" (aligned, still refining) or "walking"."""
+        """The phase: "aligning", "standing" (aligned, still refining) or "walking"."""
         return self._session.phase if self._session else "aligning"
+
+    @property
+    def spacing(self) -> tuple[float, float] | None:
+        """Distance of the feet side by side, given or learnt, and its standard deviation, m."""
+        return self._session.spacing if self._session else None
 
     @property
     def complaint(self) -> str | None:

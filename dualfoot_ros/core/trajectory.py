@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from enum import Enum
+from enum import StrEnum
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from .series import FloatArray, IntArray
 FEET = ("left", "right")
 
 
-class EventKind(str, Enum):
+class EventKind(StrEnum):
     """What can happen at an epoch."""
 
     ALIGNED = "aligned"

@@ -37,6 +37,7 @@ class Workspace:
         w[at.C_Q_BA] = noise.accelerometer_bias**2
         w[at.C_BIAS_RATE] = 1.0 / noise.bias_time
         w[at.C_ZUPT_VAR] = config.zupt.std**2
+        w[at.C_ZUPT_STILL_VAR] = config.zupt.still_std**2
         w[at.C_ZUPT_RATE_VAR] = config.zupt.rate_std**2
         w[at.C_GLRT_FORCE] = 1.0 / stance.force_std**2
         w[at.C_GLRT_RATE] = 1.0 / stance.gyro_std**2
@@ -45,6 +46,7 @@ class Workspace:
         n[at.N_RING] = self.ring
         n[at.N_EPOCH] = -1
         n[at.N_WINDOW] = min(self.ring, max(2, round(stance.window * self.rate_hz)))
+        n[at.N_STILL] = max(1, round(config.zupt.still_after * self.rate_hz))
         n[at.N_MIN_STANCE] = max(1, round(stance.min_stance * self.rate_hz))
         n[at.N_MIN_SWING] = max(1, round(stance.min_swing * self.rate_hz))
 

@@ -1,8 +1,8 @@
 """``barometer``: the height of a standing foot from air pressure.
 
 Chen, Liu, Guo 2024, section 2.3: the height is observed while the foot stands, relative to the
-first stance.  Pressure becomes height by the troposphere of the ICAO Standard Atmosphere (Doc 7488):
-h = T0 / L ((p0 / p)^(R L / g) - 1) with T0 = 288.15 K, L = -6.5 K/km, p0 = 101 325 Pa; only
+first stance.  Pressure becomes height by the troposphere of the ICAO Standard Atmosphere (Doc
+7488): h = T0 / L ((p0 / p)^(R L / g) - 1) with T0 = 288.15 K, L = -6.5 K/km, p0 = 101 325 Pa; only
 differences of it are used, over which the true temperature matters by its ratio to T0.
 """
 
@@ -80,6 +80,6 @@ class Barometer(Method):
         )
         return Outcome(np.array([innovation]), s, nis, True, detail)
 
-    def shifted(self, up_m: float) -> None:
+    def moved(self, up_m: float) -> None:
         """Move the reference heights with the track."""
         self._zero = [None if zero is None else zero - up_m for zero in self._zero]

@@ -10,8 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from ..config_aids import Aids
 from ..constraints.method import Gait, Method, Request, StancePhase
 from ..estimate import JointEstimate, Outcome
@@ -62,7 +60,7 @@ class FlatFloor(Method):
         s, nis = estimate.update(rows, innovation.tolist(), [self._config.static_std**2] * 2)
         return Outcome(innovation, s, nis, True, {"aid": "flat_floor", "what": "place"})
 
-    def shifted(self, up_m: float) -> None:
+    def moved(self, up_m: float) -> None:
         """Move the floor with the track."""
         self._floor_m += up_m
         self._stood = [None, None]

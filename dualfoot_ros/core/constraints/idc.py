@@ -42,9 +42,9 @@ class Method(AtMinimumDistance):
 
     config: Config
 
-    def correct(self, estimate: JointEstimate, r: Vector, p: Matrix) -> None:
+    def correct(self, estimate: JointEstimate, r: Vector, p: Matrix, target: float) -> None:
         """Project by the chosen solver."""
-        c0, std = self.config.distance, self.config.distance_std
+        c0, std = target, self.config.distance_std
         if self.config.solver == "exact":
             direction, push, noise = exact(r, p, c0, std)
         else:

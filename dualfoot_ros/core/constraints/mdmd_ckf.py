@@ -1,7 +1,7 @@
 """``mdmd_ckf``: the minimum distance as a pseudo-observation in a cubature update.
 
-Liu et al. 2023, section V ("Our_03"); the third-degree spherical-radial cubature rule of Arasaratnam
-and Haykin 2009: 2 n points at sqrt(n), equal weights, no centre.
+Liu et al. 2023, section V ("Our_03"); the third-degree spherical-radial cubature rule of
+Arasaratnam and Haykin 2009: 2 n points at sqrt(n), equal weights, no centre.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ class Config(MomentParameters):
 class Method(AtMinimumDistance):
     """Observes the minimum distance by a cubature update."""
 
-    def correct(self, estimate: JointEstimate, r: Vector, p: Matrix) -> None:
+    def correct(self, estimate: JointEstimate, r: Vector, p: Matrix, target: float) -> None:
         """Update with 60 cubature points."""
         c = self.config
         spread = math.sqrt(STATES)
-        observe_distance(estimate, r, c.distance, c.distance_std, spread, (0.0, 0.0))
+        observe_distance(estimate, r, target, c.distance_std, spread, (0.0, 0.0))

@@ -21,9 +21,9 @@ class Config(MomentParameters):
 class Method(AtMinimumDistance):
     """Observes the minimum distance by an EKF update."""
 
-    def correct(self, estimate: JointEstimate, r: Vector, p: Matrix) -> None:
+    def correct(self, estimate: JointEstimate, r: Vector, p: Matrix, target: float) -> None:
         """Update with the one row along r."""
         distance = norm(r)
         row = relative_row([x / distance for x in r])
-        innovation = distance - self.config.distance
+        innovation = distance - target
         estimate.update([row], [innovation], [self.config.distance_std**2])

@@ -34,10 +34,10 @@ class Method(AtMinimumDistance):
 
     config: Config
 
-    def correct(self, estimate: JointEstimate, r: Vector, p: Matrix) -> None:
+    def correct(self, estimate: JointEstimate, r: Vector, p: Matrix, target: float) -> None:
         """Update with 61 sigma points."""
         c = self.config
         total = c.alpha**2 * (STATES + c.scaling)
         centre = (total - STATES) / total
         weights = (centre, centre + 1.0 - c.alpha**2 + c.beta)
-        observe_distance(estimate, r, c.distance, c.distance_std, math.sqrt(total), weights)
+        observe_distance(estimate, r, target, c.distance_std, math.sqrt(total), weights)

@@ -10,6 +10,7 @@ from typing import Protocol
 from ..estimate import JointEstimate, Outcome
 from ..series import FloatArray
 from ..trajectory import EventKind
+from .spacing import Spacing
 
 
 @dataclass(frozen=True)
@@ -89,12 +90,14 @@ class Method:
 
     ``memory_s`` is how far back its requests may reach; ``watch_m`` the distance of the feet
     beyond which ``on_epoch`` is called (infinity: never, below zero: at every epoch);
-    ``lever_arm`` (3,) m places the second sensor relative to the first where both are on one shoe.
+    ``lever_arm`` (3,) m places the second sensor relative to the first where both are on one shoe;
+    ``spacing`` is the distance of the feet side by side, where the method needs it.
     """
 
     memory_s: float = 0.0
     watch_m: float = math.inf
     lever_arm: FloatArray | None = None
+    spacing: Spacing | None = None
 
     def on_stance_start(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
         """Return what follows from a stance that has been confirmed."""
@@ -108,5 +111,8 @@ class Method:
         """Return what is to be applied now, the feet being farther apart than ``watch_m``."""
         return ()
 
-    def shifted(self, up_m: float) -> None:
-        """Take note that the whole track was moved up by ``up_m`` m."""
+    def note(self, outcome: Outcome) -> None:
+        """Take note of what came of a request when it was first applied (not when re-run)."""
+
+    def moved(self, up_m: float) -> None:
+        """Take note that the whole track was turned and moved, up by ``up_m`` m."""

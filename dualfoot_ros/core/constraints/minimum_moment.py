@@ -1,4 +1,4 @@
-"""The minimum-distance moment (MDMD) of Liu et al. 2023, section IV-C, for the methods that use it.
+"""The minimum-distance moment (MDMD) of Liu et al. 2023, section IV-C, and what happens there.
 
 When a stance of one foot has ended and the other foot was swinging past it, the feet were closest
 at t_min = (1 - kappa) t_fst + kappa t_end, eq. (31).
@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -16,6 +18,7 @@ from ..estimate import JointEstimate, Outcome
 from ..parameters import Parameters, parameter
 from .distance import Matrix, Vector, norm, quadratic
 from .method import Gait, Method, Request, StancePhase
+from .spacing import Spacing
 
 
 @dataclass(frozen=True)
@@ -23,7 +26,11 @@ class MomentParameters(Parameters):
     """What every method at the minimum-distance moment has in common."""
 
     distance: float = parameter(
-        0.15, "minimum distance c0 of the two sensors", unit="m", minimum=0.01, maximum=1.0
+        0.0,
+        "minimum distance c0 of the two sensors (0: learnt from the walk)",
+        unit="m",
+        minimum=0.0,
+        maximum=1.0,
     )
     distance_std: float = parameter(
         0.1,
@@ -48,9 +55,12 @@ class MomentParameters(Parameters):
 class AtMinimumDistance(Method):
     """Asks for one constraint at the minimum-distance moment of every stance of a walk."""
 
+    spacing: Spacing
+
     def __init__(self, config: MomentParameters) -> None:
         """Use ``config``."""
         self.config = config
+        self.spacing = Spacing(config.distance)
         self.memory_s = (1.0 - config.kappa) * config.max_stance
 
     def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
@@ -58,11 +68,20 @@ class AtMinimumDistance(Method):
         moment = self.moment(stance, gait)
         if moment is None:
             return ()
+        constrain = partial(self.apply, target=self.spacing.value_m, heading=stance.heading)
         if self.config.apply_at == "moment":
-            return (Request(moment, True, self.apply),)
+            return (Request(moment, True, constrain),)
         left, right = gait.positions_after(moment)
         separation = [float(x) for x in left - right]
-        return (Request(moment, False, lambda estimate: self.apply(estimate, separation)),)
+        return (Request(moment, False, partial(constrain, separation=separation)),)
+
+    def note(self, outcome: Outcome) -> None:
+        """Learn the spacing, if it was not given."""
+        self.spacing.note(outcome)
+
+    def moved(self, up_m: float) -> None:
+        """Learn the placement anew."""
+        self.spacing.moved()
 
     def moment(self, stance: StancePhase, gait: Gait) -> int | None:
         """Return the epoch of the minimum distance, None when the stance is no step."""
@@ -71,27 +90,42 @@ class AtMinimumDistance(Method):
             return None
         return None if gait.in_stance(1 - stance.foot, moment) else moment
 
-    def apply(self, estimate: JointEstimate, separation: Vector | None = None) -> Outcome:
-        """Constrain the distance if it exceeds c0; ``separation`` is r at an earlier moment."""
-        config = self.config
+    def apply(
+        self,
+        estimate: JointEstimate,
+        target: float | None = None,
+        heading: float = 0.0,
+        separation: Vector | None = None,
+    ) -> Outcome:
+        """Constrain the distance to ``target`` m (as given or learnt) if it exceeds it.
+
+        ``separation`` is r at the moment, when the constraint is applied later; ``heading`` (rad)
+        goes into the outcome.
+        """
+        target = self.spacing.value_m if target is None else target
         r = separation or estimate.relative_position()
         p = estimate.relative_covariance()
         distance = norm(r)
         variance = quadratic(r, p) / distance**2 if distance > 0.0 else 0.0
-        s = variance + config.distance_std**2
-        error = distance - config.distance
+        s = variance + self.config.distance_std**2
+        error = distance - target
         nis = error * error / s if s > 0.0 else math.nan
-        detail: dict[str, float | str] = {"distance": distance, "target": config.distance}
         accepted = error > 0.0 and variance > 1e-12
+        detail: dict[str, Any] = {"distance": distance, "target": target, "heading": heading}
+        moved = [0.0, 0.0, 0.0]
         if accepted:
-            self.correct(estimate, r, p)
-            detail["distance_after"] = norm(estimate.relative_position())
-        elif error <= 0.0:
-            detail["reason"] = "distance within c0"
+            before = estimate.relative_position()
+            self.correct(estimate, r, p, target)
+            after = estimate.relative_position()
+            moved = [b - a for a, b in zip(before, after, strict=True)]
+            detail["distance_after"] = norm(after)
         else:
-            detail["reason"] = "no uncertainty"
+            within = error <= 0.0
+            detail["reason"] = "distance within c0" if within else "no uncertainty"
+        detail["separation"] = r
+        detail["separation_after"] = [a + b for a, b in zip(r, moved, strict=True)]
         return Outcome(np.array([error]), np.array([[s]]), nis, accepted, detail)
 
-    def correct(self, estimate: JointEstimate, r: Vector, p: Matrix) -> None:
-        """Bring ``estimate`` to the distance; ``r`` (3,) is the separation, ``p`` its covariance."""
+    def correct(self, estimate: JointEstimate, r: Vector, p: Matrix, target: float) -> None:
+        """Bring ``estimate`` to ``target`` m; ``r`` (3,) is the separation, ``p`` its (3, 3)."""
         raise AssertionError(f"{type(self).__name__} says what a constraint does")

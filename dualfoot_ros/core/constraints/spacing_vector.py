@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from ..estimate import JointEstimate, Outcome, relative_row
 from ..parameters import Parameters, parameter
 from .method import Gait, Request, StancePhase
 from .method import Method as Base
+from .spacing import Spacing
 from .varying_distance import feet_adjacent
 
 
@@ -31,7 +33,11 @@ class Config(Parameters):
     """Parameters of the spacing vector constraint."""
 
     spacing: float = parameter(
-        0.15, "lateral distance 2a of the two sensors", unit="m", minimum=0.0, maximum=1.0
+        0.0,
+        "lateral distance 2a of the two sensors (0: learnt from the walk)",
+        unit="m",
+        minimum=0.0,
+        maximum=1.0,
     )
     spacing_std: float = parameter(
         0.05,
@@ -61,9 +67,12 @@ class Config(Parameters):
 class Method(Base):
     """Asks for the spacing vector at the middle of every stance of a walk."""
 
+    spacing: Spacing
+
     def __init__(self, config: Config) -> None:
         """Use ``config``."""
         self.config = config
+        self.spacing = Spacing(config.spacing)
         self.memory_s = config.max_stance
 
     def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
@@ -82,25 +91,40 @@ class Method(Base):
             moment = feet_adjacent(gait, other, range(swing[0], swing[-1] + 1))
         if not gait.remembers(moment) or gait.in_stance(other, moment):
             return ()
-        return (Request(moment, True, lambda estimate: self.apply(estimate, stance.heading)),)
+        spacing = self.spacing.value_m
+        constrain = partial(self.apply, heading=stance.heading, spacing=spacing)
+        return (Request(moment, True, constrain),)
 
-    def apply(self, estimate: JointEstimate, heading: float) -> Outcome:
+    def note(self, outcome: Outcome) -> None:
+        """Learn the spacing, if it was not given."""
+        self.spacing.note(outcome)
+
+    def moved(self, up_m: float) -> None:
+        """Learn the placement anew."""
+        self.spacing.moved()
+
+    def apply(
+        self, estimate: JointEstimate, heading: float, spacing: float | None = None
+    ) -> Outcome:
         """Project onto eq. (9), or onto its component across ``heading`` (rad)."""
         config = self.config
+        spacing = self.spacing.value_m if spacing is None else spacing
         left = np.array([-math.sin(heading), math.cos(heading), 0.0])
         r = np.array(estimate.relative_position())
         if config.variant == "vector":
             rows = [relative_row([1.0, 0.0, 0.0]), relative_row([0.0, 1.0, 0.0])]
-            innovation = (r - config.spacing * left)[:2]
+            innovation = (r - spacing * left)[:2]
         else:
             rows = [relative_row(left.tolist())]
-            innovation = np.array([float(r @ left) - config.spacing])
+            innovation = np.array([float(r @ left) - spacing])
         variances = [max(config.spacing_std**2, 1e-12)] * len(rows)
         s, nis = estimate.update(rows, innovation.tolist(), variances)
         detail = {
             "distance": float(np.sqrt((r**2).sum())),
-            "target": config.spacing,
+            "target": spacing,
             "lateral": float(r @ left),
             "heading": heading,
+            "separation": r.tolist(),
+            "separation_after": estimate.relative_position(),
         }
         return Outcome(innovation, s, nis, True, detail)

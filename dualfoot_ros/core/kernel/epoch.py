@@ -11,12 +11,17 @@ from .covariance import propagate_foot
 from .detector import detect
 from .layout import (
     C_WATCH,
+    FLAG_STILL,
     FOOT,
     N_EPOCH,
     N_FLAGS,
+    N_FOOT,
     N_NOTICE,
     N_OLDEST,
     N_RING,
+    N_START,
+    N_STILL,
+    N_STRIDE,
     NOTICE_SHIFT,
     NOTICE_WATCH,
     O_COV_ATT,
@@ -54,12 +59,21 @@ def filter_epoch(w, n, epoch):
     sample = RINGS + SAMPLE * i
     dt = w[sample]
     flags = n[N_FLAGS + i]
+    still = flags // FLAG_STILL
     for foot in range(2):
+        o = foot * FOOT + POS
+        x = w[o]
+        y = w[o + 1]
+        z = w[o + 2]
         mechanize(w, foot, dt, sample + 1 + 6 * foot)
         propagate_foot(w, foot, dt)
+        if (still >> foot) & 1:  # a standing foot stays where it is
+            w[o] = x
+            w[o + 1] = y
+            w[o + 2] = z
     for foot in range(2):
         if (flags >> foot) & 1:
-            zupt(w, foot)
+            zupt(w, foot, (still >> foot) & 1 == 1)
         else:
             for k in range(ZUPT_INFO):
                 w[Z_LEFT + foot * ZUPT_INFO + k] = 0.0
@@ -120,9 +134,9 @@ def advance(w, n, dts, samples, start, stop, out):
         right, right_notice = detect(w, n, 1)
         flags = 0
         if left:
-            flags = 1
+            flags = 1 + FLAG_STILL * stands(n, 0)
         if right:
-            flags += 2
+            flags += 2 + 2 * FLAG_STILL * stands(n, 1)
         n[N_FLAGS + i] = flags
         n[N_NOTICE] = left_notice | (right_notice << NOTICE_SHIFT)
         filter_epoch(w, n, epoch)
@@ -132,6 +146,13 @@ def advance(w, n, dts, samples, start, stop, out):
         if n[N_NOTICE] != 0:
             return k + 1
     return stop
+
+
+def stands(n, foot):
+    """Return 1 when the stance of ``foot`` has lasted long enough to be a standstill, else 0."""
+    if n[N_EPOCH] - n[N_FOOT + foot * N_STRIDE + N_START] >= n[N_STILL]:
+        return 1
+    return 0
 
 
 def squared_distance(w):

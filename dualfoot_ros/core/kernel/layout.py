@@ -38,6 +38,7 @@ C_ZUPT_RATE_VAR = C_GRAVITY + 7  # (m/s per rad/s)^2
 C_GLRT_FORCE = C_GRAVITY + 8  # 1 / sigma_a^2
 C_GLRT_RATE = C_GRAVITY + 9  # 1 / sigma_w^2
 C_GLRT_THRESHOLD = C_GRAVITY + 10
+C_ZUPT_STILL_VAR = C_GRAVITY + 12  # (m/s)^2, once a stance has lasted
 C_WATCH = C_GRAVITY + 11  # squared distance of the feet beyond which a method wants to know, m^2
 C_FOOT = C_GRAVITY + 16  # then per foot:
 C_STRIDE = 8
@@ -69,7 +70,7 @@ GLRT_RIGHT = GLRT_LEFT + 1
 RINGS = GLRT_RIGHT + 1  # history first, snapshots after it
 SAMPLE = 14  # dt, 12 values, one pad
 
-# --- int64 workspace -------------------------------------------------------------------------------
+# --- int64 workspace -----------------------------------------------------------------------------
 N_RING = 0  # length of the rings, epochs
 N_EPOCH = 1  # newest epoch, -1 before the first
 N_WINDOW = 2  # GLRT window, samples
@@ -77,12 +78,14 @@ N_MIN_STANCE = 3  # samples
 N_MIN_SWING = 4  # samples
 N_NOTICE = 5  # bits below, set by an epoch that needs the tracker's attention
 N_OLDEST = 6  # oldest epoch whose snapshot is valid
+N_STILL = 7  # samples after which a stance is a standstill
 N_FOOT = 8  # then per foot:
 N_STRIDE = 8
 N_PHASE = 0  # one of the phases below
 N_START = 1  # first epoch of the (candidate) stance
 N_LEAVE = 2  # first epoch after it
-N_FLAGS = N_FOOT + 2 * N_STRIDE  # ring of zero-velocity flags, bit 0 left, bit 1 right
+N_FLAGS = N_FOOT + 2 * N_STRIDE  # ring of flags: bit 0, 1 zero velocity left, right
+FLAG_STILL = 4  # bits 2, 3: ... and standing still
 
 SWING, LANDING, STANCE, LEAVING = 0, 1, 2, 3
 
@@ -91,7 +94,7 @@ STANCE_FALSE, STANCE_CONFIRMED, SWING_FALSE, STANCE_ENDED = 1, 2, 4, 8
 NOTICE_SHIFT = 4
 NOTICE_WATCH = 256  # the feet are farther apart than the method allows
 
-# --- output row --------------------------------------------------------------------------------------
+# --- output row ----------------------------------------------------------------------------------
 O_FOOT = 45  # stride from left to right
 O_POS = 0
 O_VEL = 3

@@ -17,7 +17,10 @@ from .layout import (
     C_LEVER,
     C_STRIDE,
     C_ZUPT_RATE_VAR,
+    C_ZUPT_STILL_VAR,
     C_ZUPT_VAR,
+    E_ATT,
+    E_VEL,
     FOOT,
     PLL,
     PLR,
@@ -69,8 +72,54 @@ def collect(w, rows):
 def correct(w, rows):
     """Update with P H' (S_G), S (S_S, noise included) and the innovation (S_Y); return the NIS.
 
-    S_G and S_Y are overwritten.  A row whose variance is not positive is left out: nothing can be
-    learnt from it.
+    S_G and S_Y are overwritten.
+    """
+    nis = factor(w, rows)
+    downdate(w)
+    feed_back(w)
+    return nis
+
+
+def correct_standing(w, rows, foot):
+    """Do what `correct` does, but leave position and heading of the standing ``foot`` alone.
+
+    A Schmidt update: the other foot's states, and position and heading of this one, are considered
+    and not estimated.  A minute of standing says much about tilt and biases, and through what the
+    model leaves out (scale factor, misalignment) nothing true about the way that lies behind.
+    """
+    nis = factor(w, rows)
+    for j in range(16):
+        w[S_DX + 16 * (1 - foot) + j] = 0.0
+    for j in range(15):
+        if considered(j):
+            w[S_DX + 16 * foot + j] = 0.0
+    block = PLL if foot == 0 else PRR
+    for i in range(15):
+        estimated = not considered(i)
+        a0 = w[S_G + 16 * foot + i]
+        a1 = w[S_G + 32 + 16 * foot + i]
+        a2 = w[S_G + 64 + 16 * foot + i]
+        for j in range(15):
+            if estimated or not considered(j):
+                o = S_G + 16 * foot + j
+                w[block + ROW * i + j] -= a0 * w[o] + a1 * w[o + 32] + a2 * w[o + 64]
+            if estimated:
+                o = S_G + 16 * (1 - foot) + j
+                cross = PLR + ROW * i + j if foot == 0 else PLR + ROW * j + i
+                w[cross] -= a0 * w[o] + a1 * w[o + 32] + a2 * w[o + 64]
+    feed_back(w)
+    return nis
+
+
+def considered(state):
+    """Return whether an error state of a standing foot is its position or heading."""
+    return state < E_VEL or state == E_ATT + 2
+
+
+def factor(w, rows):
+    """Write P H' S^-1/2 to S_G and the estimated error to S_DX; return the NIS.
+
+    S = L D L'.  A row whose variance is not positive is left out: nothing can be learnt from it.
     """
     nis = 0.0
     for k in range(rows):
@@ -83,10 +132,7 @@ def correct(w, rows):
             z -= x * w[S_Y + m]
             for j in range(32):
                 w[g + j] -= x * w[S_G + 32 * m + j]
-        if d > 0.0:
-            scale = 1.0 / math.sqrt(d)
-        else:
-            scale = 0.0
+        scale = 1.0 / math.sqrt(d) if d > 0.0 else 0.0
         z = z * scale
         w[S_Y + k] = z
         nis += z * z
@@ -105,8 +151,6 @@ def correct(w, rows):
         w[S_DX + j] = (
             w[S_G + j] * w[S_Y] + w[S_G + 32 + j] * w[S_Y + 1] + w[S_G + 64 + j] * w[S_Y + 2]
         )
-    downdate(w)
-    feed_back(w)
     return nis
 
 
@@ -145,12 +189,13 @@ def feed_back(w):
         rotate_navigation(w, foot)
 
 
-def zupt(w, foot):
+def zupt(w, foot, still=False):
     """Zero-velocity update of one foot, eq. (12), at the point about which the foot pivots.
 
     With the pivot at ``l`` from the sensor, the sensor moves with v = -R_nb (omega x l) while the
     foot rolls over: h(x) = v + R_nb (omega x l) is zero, with the rows [0, I, [R_nb u x],
-    -R_nb [l x], 0], u = omega x l.  A lever arm of zero is the paper's eq. (12).
+    -R_nb [l x], 0], u = omega x l.  A lever arm of zero is the paper's eq. (12).  ``still`` takes
+    the noise of a standstill, in which nothing moves, for that of a stance.
     """
     o = foot * FOOT
     lever = C_FOOT + foot * C_STRIDE + C_LEVER
@@ -184,7 +229,8 @@ def zupt(w, foot):
     w[h + 64 + 6] = -ay
     w[h + 64 + 7] = ax
     collect_zupt(w, foot)
-    noise = w[C_ZUPT_VAR] + w[C_ZUPT_RATE_VAR] * (wx * wx + wy * wy + wz * wz)
+    noise = w[C_ZUPT_STILL_VAR] if still else w[C_ZUPT_VAR]
+    noise += w[C_ZUPT_RATE_VAR] * (wx * wx + wy * wy + wz * wz)
     info = Z_LEFT + foot * ZUPT_INFO
     for i in range(3):
         w[S_S + 4 * i] += noise
@@ -192,7 +238,10 @@ def zupt(w, foot):
         w[info + i] = w[S_Y + i]
     for i in range(9):
         w[info + 3 + i] = w[S_S + i]
-    w[info + 12] = correct(w, 3)
+    if still:
+        w[info + 12] = correct_standing(w, 3, foot)
+    else:
+        w[info + 12] = correct(w, 3)
 
 
 def collect_zupt(w, foot):

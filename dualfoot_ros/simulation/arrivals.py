@@ -4,6 +4,9 @@ A device gathers some samples into one notification.  It leaves at the next conn
 events being a fixed interval apart on the host's radio; an event may fail, and then the next one
 carries it.  Now and then the radio is busy with something else for a while (a stall).  At last the
 host takes its time to hand it over: mostly little, at times much (a Pareto tail).
+
+Where the time between notifications is a multiple of the connection interval, or nearly so, the
+delay stays the same for a long time and then slips by the interval: only the skew moves it.
 """
 
 from __future__ import annotations
@@ -27,8 +30,12 @@ class BleLink(Parameters):
     least: float = parameter(
         0.004, "delay that is always there", unit="s", minimum=0.0, maximum=1.0
     )
-    preparation: float = parameter(
-        0.0005, "mean time the device takes to hand over", unit="s", minimum=0.0, maximum=0.1
+    handling: float = parameter(
+        0.0002,
+        "mean time each of device and host usually takes to hand over",
+        unit="s",
+        minimum=0.0,
+        maximum=0.1,
     )
     failure: float = parameter(
         0.1, "share of the connection events that fail", minimum=0.0, maximum=0.95
@@ -37,8 +44,11 @@ class BleLink(Parameters):
     stall_period: float = parameter(
         3.0, "mean time between stalls", unit="s", minimum=0.1, maximum=1e6
     )
+    tail_share: float = parameter(
+        0.1, "share of the notifications the host is slow with", minimum=0.0, maximum=1.0
+    )
     tail: float = parameter(
-        0.001, "scale of the host's Pareto delay", unit="s", minimum=0.0, maximum=0.1
+        0.003, "scale of that Pareto delay", unit="s", minimum=0.0, maximum=0.1
     )
     tail_shape: float = parameter(
         1.5, "exponent of its tail; smaller is heavier", minimum=0.5, maximum=10.0
@@ -56,9 +66,10 @@ def arrivals(link: BleLink, sampled_ns: IntArray, rng: np.random.Generator) -> I
     last = np.append(np.arange(link.burst - 1, len(sampled_ns) - 1, link.burst), -1)
     ready = (sampled_ns[last] - start) * 1e-9
     count = len(ready)
-    ready = ready + link.preparation * rng.exponential(size=count)
+    ready = ready + link.handling * rng.exponential(size=count)
     sent = _events(link, ready, float(rng.uniform(0.0, link.interval)), rng)
-    handed = sent + link.least + link.tail * rng.pareto(link.tail_shape, count)
+    slow = link.tail * rng.pareto(link.tail_shape, count) * (rng.random(count) < link.tail_share)
+    handed = sent + link.least + link.handling * rng.exponential(size=count) + slow
     received = start + np.ceil(np.maximum.accumulate(handed) * 1e9).astype(np.int64)
     packet = np.minimum(np.arange(len(sampled_ns)) // link.burst, count - 1)
     return received[packet]

@@ -1,0 +1,232 @@
+"""The clock of a device, followed on the host's clock from arrivals alone, sample by sample."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .clock_config import ClockModel
+from .clock_envelope import Line, LowerEnvelope
+from .clock_slew import SlewedTime
+from .clock_suspects import Arrival, Suspects
+
+PHASES = ("empty", "acquiring", "tracking", "refused")
+COUNTERS = ("arrivals", "late", "early", "bad_skew", "restarts", "jumps")
+OLD_NS = 1_000_000_000  # a stamp that much before the newest is no late sample
+STEER_NS = 100_000_000
+ACQUIRING_SLEW, ACQUIRING_TIME_S = 0.4, 0.1
+DOUBT = 25.0  # natural log of the odds at which a shift of all arrivals is no chance
+
+
+@dataclass(frozen=True)
+class ClockState:
+    """What is known about a device's clock.
+
+    Attributes
+    ----------
+    phase : "empty", "acquiring" (sensible, not yet good), "tracking", or "refused" (bad skew)
+    offset_ns : host minus device at the newest sample, least delay included
+    offset_std_s : its standard deviation, s; nan while nothing is known
+    skew_ppm : how much faster the device's clock runs
+    skew_std_ppm : its standard deviation
+    delay_s : mean delay of the fastest arrivals above the least one, s
+    epoch : restarts and jumps so far
+    """
+
+    phase: str
+    offset_ns: int
+    offset_std_s: float
+    skew_ppm: float
+    skew_std_ppm: float
+    delay_s: float
+    epoch: int
+
+
+class DeviceClock:
+    """Translate the stamps of one device to the host's clock.
+
+    Host times are strictly increasing with device times and never step, except at the beginning
+    of a new ``epoch`` (the device restarted, or a clock jumped).  While tracking, corrections
+    run at ``max_slew`` at most.  What is translated is the time of the *fastest possible*
+    arrival: a least delay that is always there is part of the offset, unless ``config.delay``
+    takes it off.
+
+    ``counters`` holds ``arrivals``, ``late`` (samples out of order), ``early`` (arrivals that
+    contradict all others and were left out), ``bad_skew`` (samples refused for it),
+    ``restarts`` (the device's time went back) and ``jumps`` (either clock was set).
+    """
+
+    def __init__(self, config: ClockModel | None = None) -> None:
+        self.config = config or ClockModel()
+        self.counters = dict.fromkeys(COUNTERS, 0)
+        self.epoch = 0
+        self._jump_ns = round(self.config.jump * 1e9)
+        self._delay_ns = round(self.config.delay * 1e9)
+        self._time: SlewedTime | None = None
+
+    def update(self, device_ns: int, arrival_ns: int) -> int | None:
+        """Learn from one sample and return its host time in ns; None: it is not to be used.
+
+        None is returned for stamps that contradict all others by more than ``config.jump`` and
+        for a clock with a skew beyond ``config.max_skew``; both are counted.
+        """
+        arrival = Arrival(int(device_ns), int(arrival_ns))
+        self.counters["arrivals"] += 1
+        if self._time is None:
+            self._begin([arrival])
+        elif not self._take(arrival):
+            return None
+        if self.state.phase == "refused":
+            self.counters["bad_skew"] += 1
+            return None
+        return self.translate(arrival.device_ns)
+
+    def translate(self, device_ns: int) -> int | None:
+        """Return the host time in ns of a device time; None before the first sample."""
+        return None if self._time is None else self._time.at(device_ns) - self._delay_ns
+
+    def restart(self) -> None:
+        """Forget the clock (the device's driver saw it restart); the counters stay."""
+        if self._time is not None:
+            self.counters["restarts"] += 1
+            self.epoch += 1
+            self._time = None
+
+    @property
+    def state(self) -> ClockState:
+        """What is known now."""
+        if self._time is None:
+            nan = float("nan")
+            return ClockState("empty", 0, nan, nan, nan, nan, self.epoch)
+        line, now_s = self._line, self._seconds(self._newest_ns)
+        return ClockState(
+            phase=self._phase(line),
+            offset_ns=self._offset_ns(self._newest_ns) - self._delay_ns,
+            offset_std_s=line.std_at(now_s),
+            skew_ppm=1e6 * (1.0 / (1.0 + line.skew) - 1.0),
+            skew_std_ppm=1e6 * line.skew_var**0.5,
+            delay_s=line.scale_s,
+            epoch=self.epoch,
+        )
+
+    def _begin(self, arrivals: list[Arrival]) -> None:
+        """Start anew from a few arrivals, oldest first."""
+        config, first = self.config, arrivals[0]
+        self._origin_ns = first.device_ns
+        self._base_ns = first.arrival_ns - first.device_ns
+        self._envelope = LowerEnvelope(config.bin, config.bins, 1e-6 * config.skew_scale)
+        self._suspects = Suspects()
+        self._late_since: int | None = None
+        self._least_late_s = 0.0
+        self._tracking = False
+        for device_ns, arrival_ns in arrivals:
+            self._learn(device_ns, arrival_ns)
+        self._newest_ns = max(a.device_ns for a in arrivals)
+        start = self._newest_ns
+        self._time = SlewedTime(start, start + self._offset_ns(start), self._line.skew)
+
+    def _take(self, arrival: Arrival) -> bool:
+        """Learn from a sample; return False when it is not to be used."""
+        device_ns, arrival_ns = arrival
+        above_ns = arrival_ns - device_ns - self._offset_ns(device_ns)
+        if above_ns < -self._gate_ns(device_ns) or device_ns < self._newest_ns - OLD_NS:
+            return self._suspect(arrival, above_ns)
+        self._suspects.contradict()
+        self.counters["late"] += device_ns < self._newest_ns
+        fitted = self._learn(device_ns, arrival_ns)
+        if self._all_late(device_ns, 1e-9 * above_ns):
+            self._jump_up()
+        self._steer(device_ns, fitted)
+        return True
+
+    def _suspect(self, arrival: Arrival, above_ns: int) -> bool:
+        """Hold a sample that cannot be; return whether it may be used all the same."""
+        self.counters["early"] += self._suspects.hold(arrival)
+        small = -self._jump_ns <= above_ns and arrival.device_ns >= self._newest_ns - OLD_NS
+        settled = self._tracking and not small
+        if self._suspects.confirmed and (self._suspects.alone or not settled):
+            back = arrival.device_ns < self._newest_ns - OLD_NS
+            held = self._suspects.release()
+            if back or settled:
+                self._restart("restarts" if back else "jumps", held)
+            else:
+                self._admit(held)
+            return True
+        return small or not self._tracking and above_ns > -OLD_NS
+
+    def _admit(self, held: list[Arrival]) -> None:
+        for device_ns, arrival_ns in held:
+            self._learn(device_ns, arrival_ns)
+        self._steer(max(a.device_ns for a in held), True)
+
+    def _restart(self, counter: str, arrivals: list[Arrival]) -> None:
+        self.counters[counter] += 1
+        self.epoch += 1
+        self._begin(arrivals)
+
+    def _all_late(self, device_ns: int, above_s: float) -> bool:
+        """Tell whether every arrival of the last seconds was later than chance allows."""
+        if above_s <= self.config.jump:
+            self._late_since = None
+            return False
+        if self._late_since is None:
+            self._late_since, self._least_late_s = device_ns, above_s
+        self._least_late_s = min(self._least_late_s, above_s)
+        elapsed_s = 1e-9 * (device_ns - self._late_since)
+        odds = elapsed_s / self.config.bin * self._least_late_s / self._line.scale_s
+        return elapsed_s >= self.config.jump_after and odds > DOUBT
+
+    def _jump_up(self) -> None:
+        since_s = self._seconds(self._late_since or 0)
+        late = [point for point in self._envelope.points if point[0] >= since_s]
+        arrivals = [
+            Arrival(device := self._origin_ns + round(1e9 * t), device + self._base_ns + round(y))
+            for t, y in ((t, 1e9 * y) for t, y in late)
+        ]
+        self._restart("jumps", arrivals)
+
+    def _learn(self, device_ns: int, arrival_ns: int) -> bool:
+        delayed_ns = arrival_ns - device_ns - self._base_ns
+        return self._envelope.add(self._seconds(device_ns), 1e-9 * delayed_ns)
+
+    def _steer(self, device_ns: int, fitted: bool) -> None:
+        """Let the translated time run towards the line."""
+        self._newest_ns = max(self._newest_ns, device_ns)
+        time, now_ns = self._time, self._newest_ns
+        assert time is not None
+        since_ns = now_ns - time.newest.device_ns
+        if since_ns <= 0 or not (fitted or since_ns >= STEER_NS):
+            return
+        ahead_s = 1e-9 * (now_ns + self._offset_ns(now_ns) - time.at(now_ns))
+        self._tracking = self._tracking or self._settled(ahead_s)
+        limit, within_s = ACQUIRING_SLEW, ACQUIRING_TIME_S
+        if self._tracking:
+            limit, within_s = 1e-6 * self.config.max_slew, self.config.time_constant
+        time.steer(now_ns, self._line.skew, max(-limit, min(limit, ahead_s / within_s)))
+
+    def _settled(self, ahead_s: float) -> bool:
+        std_s = self._line.std_at(self._seconds(self._newest_ns))
+        enough = self._envelope.span_s >= self.config.settle and std_s < self.config.tracking_std
+        return enough and abs(ahead_s) < self.config.tracking_std
+
+    def _phase(self, line: Line) -> str:
+        surely = abs(line.skew) - 3.0 * line.skew_var**0.5
+        if surely > 1e-6 * self.config.max_skew and self._envelope.span_s >= self.config.settle:
+            return "refused"
+        return "tracking" if self._tracking else "acquiring"
+
+    def _gate_ns(self, device_ns: int) -> int:
+        """Return how far below the line an arrival may be by chance, ns."""
+        return round(1e9 * max(0.005, 8.0 * self._line.std_at(self._seconds(device_ns))))
+
+    @property
+    def _line(self) -> Line:
+        line = self._envelope.line
+        assert line is not None
+        return line
+
+    def _offset_ns(self, device_ns: int) -> int:
+        """Return host minus device by the line, ns."""
+        return self._base_ns + round(1e9 * self._line.at(self._seconds(device_ns)))
+
+    def _seconds(self, device_ns: int) -> float:
+        return 1e-9 * (device_ns - self._origin_ns)

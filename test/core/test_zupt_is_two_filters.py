@@ -45,7 +45,12 @@ def settled_walk(config: TrackerConfig, seconds: float):
 @pytest.mark.parametrize("lever_arm", (0.0, 0.09))
 def test_the_joint_filter_without_constraint_equals_two_filters(lever_arm):
     config = TrackerConfig.from_mapping(
-        {"method": "zupt", "heading.source": "sensor", "zupt.lever_arm": lever_arm}
+        {
+            "method": "zupt",
+            "heading.source": "sensor",
+            "zupt.lever_arm": lever_arm,
+            "zupt.still_after": 1e6,
+        }
     )
     pairs, start, feet, flags, states, _ = settled_walk(config, 12.0)
     assert sum(f != 0 for f in flags.values()) > 100

@@ -90,7 +90,7 @@ class Spacing:
 
     def note(self, outcome: Outcome) -> None:
         """Learn from a constraint that was applied, or found not to be needed."""
-        if self.learner is not None:
+        if self.learner is not None and "separation" in outcome.detail:
             before = np.array(outcome.detail["separation"][:2])
             after = np.array(outcome.detail["separation_after"][:2])
             self.learner.add(before, after, outcome.detail["heading"])

@@ -13,7 +13,7 @@ from rcl_interfaces.msg import (
 )
 from rclpy.node import Node
 
-from ..core.config import all_specs
+from ..core.config import GROUPS, all_specs
 from ..core.constraints import METHODS
 from ..core.parameters import Parameters, ParameterSpec, check
 from ..options import node_parameter_names
@@ -83,6 +83,6 @@ def _warn_if_unknown(node: Node, name: str, own: Mapping[str, Any]) -> None:
 
 def _words(values: Mapping[str, Any]) -> str:
     """Return the values in words, without those of methods that are not in use."""
-    idle = set(METHODS) - {values.get("method")}
+    idle = set(METHODS) - {values.get("method"), *GROUPS}
     shown = {name: v for name, v in values.items() if name.partition(".")[0] not in idle}
     return ", ".join(f"{name}={value}" for name, value in shown.items())

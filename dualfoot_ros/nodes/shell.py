@@ -7,6 +7,7 @@ one sentence on stderr.
 from __future__ import annotations
 
 import argparse
+import re
 import signal
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -22,6 +23,7 @@ from rclpy.utilities import remove_ros_args
 from ..core.errors import DualFootError
 from ..core.parameters import ParameterSpec
 
+SOURCE_LINE = re.compile(r" ?, at \S+:\d+")  # where in rcl's own source an error was found
 STOPPED = (KeyboardInterrupt, ExternalShutdownException)
 
 
@@ -35,7 +37,7 @@ class Program:
     specs: Sequence[ParameterSpec] = ()
 
     def check_arguments(self, argv: Sequence[str]) -> None:
-        """Answer --help and refuse arguments that ROS does not take away."""
+        """Answer --help and refuse arguments that ROS does not take away, or cannot read."""
         parser = argparse.ArgumentParser(
             prog=self.name,
             description=self.summary,
@@ -43,7 +45,9 @@ class Program:
             formatter_class=argparse.RawDescriptionHelpFormatter,
             usage=f"{self.name} [-h] [--ros-args -p NAME:=VALUE --params-file YAML -r FROM:=TO]",
         )
-        parser.parse_args(remove_ros_args(["", *argv])[1:])
+        with _ros_arguments():
+            rest = remove_ros_args(["", *argv])[1:]
+        parser.parse_args(rest)
 
     def _table(self) -> str:
         lines = [
@@ -66,8 +70,8 @@ def run_nodes(
 ) -> int:
     """Run the nodes that ``build`` makes until a signal or their end; return the exit code."""
     argv = sys.argv[1:] if argv is None else list(argv)
-    program.check_arguments(argv)
     try:
+        program.check_arguments(argv)
         with started(argv):
             _spin(build())
     except STOPPED:
@@ -90,11 +94,8 @@ def started(argv: Sequence[str]) -> Iterator[None]:
     DualFootError
         When ROS cannot read its arguments or parameter files.
     """
-    try:
+    with _ros_arguments():
         rclpy.init(args=["", *argv])
-    except RuntimeError as error:
-        reason = " ".join(str(error).split())
-        raise DualFootError(f"the arguments of ROS cannot be read: {reason}") from None
     try:
         yield
     except Exception:
@@ -105,6 +106,16 @@ def started(argv: Sequence[str]) -> Iterator[None]:
     finally:
         _ignore_signals()
         rclpy.try_shutdown()
+
+
+@contextmanager
+def _ros_arguments() -> Iterator[None]:
+    """Turn what rcl says about arguments and parameter files into one sentence."""
+    try:
+        yield
+    except Exception as error:  # the classes of rcl's errors have no public name
+        reason = SOURCE_LINE.sub("", " ".join(str(error).split()))
+        raise DualFootError(f"the arguments after --ros-args cannot be read: {reason}") from None
 
 
 def _spin(graph: Graph) -> None:

@@ -1,0 +1,161 @@
+"""A context of its own for each test, a domain of its own for each worker, loopback only."""
+
+import importlib.util
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+os.environ["ROS_DOMAIN_ID"] = str(1 + os.getpid() % 100)
+os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+os.environ.setdefault("ROS_HOME", "/tmp/dualfoot_ros_test")
+
+ROOT = Path(__file__).resolve().parents[2]
+PATIENCE_S = 60.0
+
+if importlib.util.find_spec("rclpy") is None:
+    collect_ignore_glob = ["test_*.py"]
+
+
+class Bench:
+    """Nodes of one test on one executor."""
+
+    def __init__(self, context):
+        from rclpy.executors import SingleThreadedExecutor
+
+        self.context = context
+        self._executor = SingleThreadedExecutor(context=context)
+        self._nodes = []
+
+    def add(self, kind, values=None, **options):
+        """Make a node with parameters and spin it along."""
+        from rclpy.parameter import Parameter
+
+        overrides = [Parameter(name, value=value) for name, value in (values or {}).items()]
+        node = kind(context=self.context, parameter_overrides=overrides, **options)
+        self._nodes.append(node)
+        self._executor.add_node(node)
+        return node
+
+    def plain(self, name="probe"):
+        """Make a node without anything."""
+        from rclpy.node import Node
+
+        return self.add(lambda **options: Node(name, **options))
+
+    def until(self, condition: Callable[[], object], said: str = ""):
+        """Spin until ``condition`` holds; fail when it takes too long."""
+        deadline = time.monotonic() + PATIENCE_S
+        while not condition():
+            assert time.monotonic() < deadline, f"waited in vain: {said}"
+            self._executor.spin_once(timeout_sec=0.02)
+
+    def close(self):
+        self._executor.shutdown()
+        for node in reversed(self._nodes):
+            node.destroy_node()
+
+
+@pytest.fixture
+def context() -> Iterator:
+    """Return an initialised context of rclpy."""
+    import rclpy
+
+    made = rclpy.Context()
+    rclpy.init(args=[], context=made)
+    yield made
+    rclpy.try_shutdown(context=made)
+
+
+@pytest.fixture
+def bench(context) -> Iterator[Bench]:
+    """Return nodes on an executor."""
+    made = Bench(context)
+    yield made
+    made.close()
+
+
+@pytest.fixture(scope="session")
+def walk_bag(tmp_path_factory) -> Path:
+    """Return a bag of a short simulated walk with truth; the feet are sampled at equal times."""
+    from dualfoot_ros.recording import Recording, write_bag
+    from dualfoot_ros.simulation import WalkConfig, simulate
+
+    made = simulate(WalkConfig(route="straight", rate=60.0, standing=3.0), seed=1)
+    path = tmp_path_factory.mktemp("bags") / "walk"
+    recording = Recording(made.left, made.right, made.left_truth, made.right_truth)
+    return write_bag(path, recording)
+
+
+class Program:
+    """An executable of the package as a process."""
+
+    def __init__(self, module: str, *arguments: object):
+        paths = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", f"dualfoot_ros.nodes.{module}", *map(str, arguments)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
+        )
+        self._lines: list[str] = []
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def _read(self) -> None:
+        assert self._process.stdout is not None
+        self._lines.extend(self._process.stdout)
+
+    @property
+    def output(self) -> str:
+        """What the process has printed so far."""
+        return "".join(self._lines)
+
+    def wait_for(self, text: str) -> None:
+        """Wait until the process has printed ``text``."""
+        deadline = time.monotonic() + PATIENCE_S
+        while text not in self.output:
+            assert time.monotonic() < deadline, f"'{text}' was not said:\n{self.output}"
+            assert self._process.poll() is None or text in self._after_end(), self.output
+            time.sleep(0.02)
+
+    def _after_end(self) -> str:
+        self._reader.join()
+        return self.output
+
+    def send(self, number: signal.Signals) -> None:
+        """Send a signal."""
+        self._process.send_signal(number)
+
+    def code(self) -> int:
+        """Wait for the end and return the exit code."""
+        code = self._process.wait(timeout=PATIENCE_S)
+        self._reader.join()
+        return code
+
+    def kill(self) -> None:
+        """End it whatever it does."""
+        if self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()
+
+
+@pytest.fixture
+def program() -> Iterator[Callable[..., Program]]:
+    """Start executables; whatever still runs after the test is ended."""
+    started: list[Program] = []
+
+    def start(module: str, *arguments: object) -> Program:
+        started.append(Program(module, *arguments))
+        return started[-1]
+
+    yield start
+    for each in started:
+        each.kill()

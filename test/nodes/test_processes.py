@@ -1,0 +1,125 @@
+"""The executables as a user meets them: real processes, real signals."""
+
+import signal
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+NODES = ["fusion", "time_sync", "imu_adapter", "bringup", "replay"]
+SIGNALS = [signal.SIGINT, signal.SIGTERM]
+
+
+def arguments(node, bag):
+    return ["--ros-args", "-p", f"bag:={bag}"] if node == "replay" else []
+
+
+@pytest.mark.parametrize("number", SIGNALS, ids=lambda number: number.name)
+@pytest.mark.parametrize("node", NODES)
+def test_a_signal_ends_a_node_with_code_0_and_without_traceback(program, node, number, walk_bag):
+    running = program(node, *arguments(node, walk_bag))
+    running.wait_for("configuration:")
+    running.send(number)
+    assert running.code() == 0
+    assert "Traceback" not in running.output
+
+
+def test_an_impatient_ctrl_c_is_no_traceback_either(program):
+    running = program("fusion")
+    running.wait_for("configuration:")
+    running.send(signal.SIGINT)
+    running.send(signal.SIGINT)
+    assert running.code() == 0
+    assert "Traceback" not in running.output
+
+
+@pytest.mark.parametrize("node", NODES)
+def test_help_shows_examples_and_every_parameter_and_starts_nothing(program, node):
+    running = program(node, "--help")
+    assert running.code() == 0
+    assert "examples:" in running.output and "ros2 run dualfoot_ros" in running.output
+    assert "parameters" in running.output and "configuration:" not in running.output
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["-p", "zupt.std:=-1.0"], "'zupt.std' is -1.0; allowed is a number in [0.0001, 1] m/s"),
+        (["-p", "zupt.std:=much"], "'zupt.std' is 'much'; allowed is a number"),
+        (["-p", "method:=magic"], "'method' is 'magic'; allowed is one of zupt"),
+        (["-p", "sync:=perhaps"], "'sync' is 'perhaps'; allowed is one of internal, external"),
+        (["--params-file", "/no/such.yaml"], "/no/such.yaml"),
+    ],
+)
+def test_a_bad_parameter_is_one_sentence_and_exit_code_2(program, arguments, said):
+    running = program("fusion", "--ros-args", *arguments)
+    assert running.code() == 2
+    assert said in running.output and "fusion: error:" in running.output
+    assert "Traceback" not in running.output
+
+
+def test_a_whole_number_is_taken_for_a_real_one(program):
+    running = program("fusion", "--ros-args", "-p", "zupt.std:=1")
+    running.wait_for("zupt.std=1.0")
+
+
+def test_a_misspelt_parameter_is_warned_about_with_the_name_that_was_meant(program):
+    running = program("fusion", "--ros-args", "-p", "zupt.sdt:=0.1")
+    running.wait_for("'zupt.sdt' is not known and has no effect; did you mean 'zupt.std'?")
+
+
+def test_a_parameter_of_another_node_in_the_same_file_is_no_misspelling(program, tmp_path):
+    path = tmp_path / "all.yaml"
+    path.write_text("/**:\n  ros__parameters:\n    mounting.yaw: 0.1\n    play.loop: true\n")
+    running = program("fusion", "--ros-args", "--params-file", path)
+    running.wait_for("configuration:")
+    assert "not known" not in running.output
+
+
+def test_a_preset_reaches_a_node_in_a_namespace(program):
+    running = program(
+        "fusion", "--ros-args", "--params-file", ROOT / "config/liu2023.yaml", "-r", "__ns:=/me"
+    )
+    running.wait_for("[me.fusion]: configuration:")
+    assert "idc.distance=0.3" in running.output
+
+
+def test_an_argument_that_is_not_for_ros_is_refused(program):
+    running = program("fusion", "walk.bag")
+    assert running.code() == 2
+    assert "unrecognized arguments: walk.bag" in running.output
+
+
+@pytest.mark.parametrize(
+    ("node", "parameter", "said"),
+    [
+        ("replay", "bag:=/no/such/bag", "there is no bag '/no/such/bag'"),
+        ("replay", "play.rate:=2.0", "parameter 'bag' is empty"),
+        ("imu_adapter", "source:=serial:///dev/x", "allowed is topic:///NAME or file://PATH"),
+        ("imu_adapter", "source:=file:///no/such.csv", "there is no file '/no/such.csv'"),
+    ],
+)
+def test_a_source_that_is_not_there_is_one_sentence_and_exit_code_2(
+    program, node, parameter, said
+):
+    running = program(node, "--ros-args", "-p", parameter)
+    assert running.code() == 2
+    assert said in running.output
+    assert "Traceback" not in running.output
+
+
+def test_publish_tf_without_tf2_msgs_is_refused_at_the_start(program):
+    try:
+        import tf2_msgs.msg  # noqa: F401
+    except ImportError:
+        running = program("fusion", "--ros-args", "-p", "publish_tf:=true")
+        assert running.code() == 2
+        assert "tf2_msgs cannot be imported" in running.output
+    else:
+        pytest.skip("tf2_msgs is installed here")
+
+
+def test_an_input_without_publisher_is_named_within_seconds(program):
+    running = program("fusion", "--ros-args", "-p", "input.silence:=0.5")
+    running.wait_for("topic '/left/imu/data_raw' has no publisher")
+    running.wait_for("topic '/right/imu/data_raw' has no publisher")

@@ -9,6 +9,7 @@ stale code when an inner module changes.
 from __future__ import annotations
 
 import hashlib
+import importlib
 import inspect
 import os
 import subprocess
@@ -168,6 +169,7 @@ class BackgroundEngine:
 
     def _prepare(self) -> None:
         try:
+            importlib.import_module("numba")
             directory = _usable_cache()
             if directory is not None and not (directory / "ready").exists():
                 command = [sys.executable, "-m", "dualfoot_ros.core.kernel"]

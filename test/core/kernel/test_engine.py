@@ -1,0 +1,122 @@
+"""The two forms of the kernel: a live start waits for nothing, and nothing depends on numba."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from dualfoot_ros.core import DualFootTracker
+from dualfoot_ros.core.kernel import interpreted
+from dualfoot_ros.core.kernel.engine import ENTRIES, cache_directory
+
+from ..following import live
+from ..harness import walk
+
+ROOT = Path(__file__).resolve().parents[3]
+
+TRACK = """
+import hashlib, json, sys
+{before}
+import numpy as np
+from dualfoot_ros.core import DualFootTracker, ImuPair
+data = np.load({file!r})
+tracker = DualFootTracker()
+first = tracker.add(ImuPair(int(data["stamps"][0]), data["values"][0]))
+at_once = tracker.engine
+digest, engines = hashlib.sha256(), []
+for k in range(1, len(data["stamps"])):
+    update = tracker.add(ImuPair(int(data["stamps"][k]), data["values"][k]))
+    if update.row is not None:
+        digest.update(update.row.tobytes())
+    engines.append(tracker.engine)
+    if k == 420 and tracker._background is not None:
+        tracker._background.wait()
+print(json.dumps([at_once, engines[300], engines[-1], digest.hexdigest()]))
+"""
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory):
+    """Return a walk that crosses a switch of the engine, as a file, and its interpreted digest."""
+    import numpy as np
+
+    pairs = walk(11.0)
+    file = tmp_path_factory.mktemp("walk") / "pairs.npz"
+    np.savez(file, stamps=pairs.stamps, values=pairs.values)
+    rows = live(DualFootTracker(engine="interpreted"), pairs).rows
+    return str(file), hashlib.sha256(b"".join(row.tobytes() for row in rows)).hexdigest()
+
+
+def tracked(recording, before: str, cache: Path) -> list[str]:
+    """Run the script in another process; return engine at once, midway, at the end, and digest."""
+    script = TRACK.format(before=before, file=recording[0])
+    environment = {**os.environ, "DUALFOOT_CACHE_DIR": str(cache), "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    return json.loads(done.stdout)
+
+
+def test_a_live_start_with_a_cold_cache_runs_interpreted_then_compiled_with_the_same_bits(
+    recording, tmp_path
+):
+    pytest.importorskip("numba")
+    at_once, _, last, digest = tracked(recording, "", tmp_path)
+    assert (at_once, last) == ("interpreted", "compiled")
+    assert digest == recording[1]
+    (directory,) = tmp_path.iterdir()
+    assert (directory / "ready").exists()
+    assert list(directory.rglob("*.nbi"))
+
+
+def test_without_numba_everything_runs_interpreted_with_the_same_bits(recording, tmp_path):
+    engines_and_digest = tracked(recording, 'sys.modules["numba"] = None', tmp_path)
+    assert engines_and_digest == ["interpreted", "interpreted", "interpreted", recording[1]]
+
+
+def test_where_no_cache_can_be_written_the_kernel_is_compiled_all_the_same(recording, tmp_path):
+    pytest.importorskip("numba")
+    blocked = tmp_path / "a file"
+    blocked.write_text("no directory can be made below this")
+    at_once, _, last, digest = tracked(recording, "", blocked / "cache")
+    assert (at_once, last) == ("interpreted", "compiled")
+    assert digest == recording[1]
+
+
+def test_importing_the_core_imports_neither_numba_nor_scipy():
+    code = (
+        "import sys, dualfoot_ros.core; "
+        "print([m for m in ('numba', 'scipy', 'matplotlib', 'rosbags') if m in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT
+    )
+    assert done.stdout.strip() == "[]"
+
+
+def test_the_cache_is_another_one_for_another_source_of_the_kernel(tmp_path, monkeypatch):
+    monkeypatch.setenv("DUALFOOT_CACHE_DIR", str(tmp_path))
+    here = cache_directory()
+    from dualfoot_ros.core.kernel import engine
+
+    original = Path.read_bytes
+    monkeypatch.setattr(Path, "read_bytes", lambda self: original(self) + b"# changed")
+    assert engine.cache_directory() != here
+
+
+def test_an_engine_has_every_entry():
+    engine = interpreted()
+    assert all(callable(getattr(engine, name)) for name in ENTRIES)

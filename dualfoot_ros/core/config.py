@@ -178,7 +178,9 @@ GROUPS: dict[str, type[Parameters]] = {
 class TrackerConfig(Parameters):
     """The whole configuration: the method's name, the common groups, each method's own group."""
 
-    method: str = parameter("idc", "which system of the papers to run", choices=tuple(METHODS))
+    method: str = parameter(
+        "spacing_vector", "which system of the papers to run", choices=tuple(METHODS)
+    )
     gravity: float = parameter(9.80665, "local gravity", unit="m/s^2", minimum=9.7, maximum=9.9)
     alignment: Alignment = field(default_factory=Alignment)
     heading: Heading = field(default_factory=Heading)

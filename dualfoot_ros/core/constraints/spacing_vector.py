@@ -40,7 +40,7 @@ class Config(Parameters):
         maximum=1.0,
     )
     spacing_std: float = parameter(
-        0.05,
+        0.15,
         "scatter of the spacing vector (0: hard projection)",
         unit="m",
         minimum=0.0,

@@ -66,8 +66,7 @@ def same_bits(followed: Followed, result: Trajectory) -> None:
 
 def key(event: Event) -> tuple:
     """Return what makes an event what it is, in comparable form."""
-    nis = None if np.isnan(event.nis) else event.nis
-    innovation, s = event.innovation.tolist(), event.S.tolist()
+    numbers = repr([event.innovation.tolist(), event.S.tolist(), event.nis])
     detail = sorted((name, str(value)) for name, value in event.detail.items())
     moments = event.stamp_ns, event.detected_ns
-    return event.kind, *moments, event.foot, innovation, s, nis, event.accepted, detail
+    return event.kind, *moments, event.foot, numbers, event.accepted, detail

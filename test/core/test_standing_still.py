@@ -8,7 +8,7 @@ import pytest
 from dualfoot_ros.core import DualFootTracker, TrackerConfig
 from dualfoot_ros.core.kernel import layout as at
 
-from .harness import Pairs, open_session, simulated, walk
+from .harness import Pairs, open_session, quick_engine, simulated, walk
 
 
 def standing(seed: int, seconds: float) -> Pairs:
@@ -25,6 +25,19 @@ def test_standing_still_drifts_less_than_a_centimetre_in_a_minute(seed):
         pass
     for foot in range(2):
         track = out[start:, at.O_FOOT * foot : at.O_FOOT * foot + 3]
+        assert np.linalg.norm(track - track[0], axis=1).max() < 0.01
+
+
+@pytest.mark.parametrize("method", ("zupt", "idc"))
+@pytest.mark.parametrize("seed", range(3))
+def test_standing_for_a_minute_after_a_walk_moves_the_track_by_less_than_a_centimetre(
+    method, seed
+):
+    pairs = walk(route="straight", final_standing=63.0, rate=100.0, seed=seed)
+    tracker = DualFootTracker(TrackerConfig(method=method), engine=quick_engine().name)
+    result = tracker.run(*pairs.series())
+    for foot in (result.left, result.right):
+        track = foot.position[-6000:]
         assert np.linalg.norm(track - track[0], axis=1).max() < 0.01
 
 

@@ -106,11 +106,36 @@ def test_one_to_three_rows_at_once_are_the_dense_joseph_update(seed, rows, std):
     assert np.allclose(taken, error, rtol=1e-6, atol=1e-8 * np.abs(error).max())
 
 
-def test_an_update_leaves_the_covariance_symmetric_to_the_bit():
+@given(seeds, st.sampled_from((0, 1)))
+@settings(max_examples=40, deadline=None)
+def test_standing_still_considers_position_heading_and_the_other_foot(seed, foot):
+    """A Schmidt update: the optimal gain with the rows of the considered states set to zero."""
+    space = moving(seed)
+    before, P, z = space.w.copy(), space.covariance(), TrackerConfig().zupt
+    innovation = pivot_velocity(before, foot)
+    rate = before[foot * at.FOOT + at.RATE : foot * at.FOOT + at.RATE + 3]
+    zupt(space.w, foot, True)
+    H = np.zeros((3, 30))
+    rows = space.w[at.S_H : at.S_H + 96].reshape(3, 32)
+    H[:, 15 * foot : 15 * foot + 15] = rows[:, 16 * foot : 16 * foot + 15]
+    R = np.eye(3) * (z.still_std**2 + z.rate_std**2 * rate @ rate)
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
+    own = 15 * foot
+    K[[own, own + 1, own + 2, own + 8]] = 0.0
+    K[15 * (1 - foot) : 15 * (1 - foot) + 15] = 0.0
+    J = np.eye(30) - K @ H
+    assert scaled(space.covariance() - (J @ P @ J.T + K @ R @ K.T), P) < 1e-11
+    error = K @ innovation
+    taken = errors_taken_off(before, space.w)
+    assert np.allclose(taken, error, rtol=1e-8, atol=1e-11 * np.abs(error).max())
+
+
+@pytest.mark.parametrize("still", (False, True))
+def test_an_update_leaves_the_covariance_symmetric_to_the_bit(still):
     space = moving(3)
     for _ in range(50):
         for foot in range(2):
-            zupt(space.w, foot)
+            zupt(space.w, foot, still)
     for start in (at.PLL, at.PRR):
         block = space.w[start : start + at.BLOCK].reshape(15, at.ROW)[:, :15]
         assert np.array_equal(block, block.T)

@@ -1,15 +1,18 @@
-"""Write the parameter files of ``config/`` from the declared parameters: ``make config``."""
+"""Write ``config/*.yaml`` and ``docs/parameters.md`` from the declarations: ``make config``."""
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 from dualfoot_ros.core.config import all_specs
+from dualfoot_ros.core.parameters import ParameterSpec
 from dualfoot_ros.options import node_specs
 from dualfoot_ros.parameter_files import parameter_file
 
-CONFIG = Path(__file__).resolve().parent.parent / "config"
+ROOT = Path(__file__).resolve().parent.parent
+CONFIG = ROOT / "config"
 DEFAULT = """\
 # Every parameter of the tracker with its default, as declared in dualfoot_ros/core/.
 # Written by `make config`: change the declarations, not this file.
@@ -20,6 +23,15 @@ NODES = """\
 # the tracker (config/default.yaml) may be added to any section, or stand below '/**:'.
 # Written by `make config`: copy it, change the copy, and give it to bringup or to any node:
 #   ros2 run dualfoot_ros bringup --ros-args --params-file mine.yaml
+
+"""
+TABLES = """\
+# Parameters
+
+Written by `make config` from the declarations in `dualfoot_ros/core/` and
+`dualfoot_ros/options.py`: change those, not this file.  A key is written dotted (`--set
+zupt.std=0.02`) or nested (YAML).  A value out of range is refused with its name, the value and
+what is allowed; a name that does not exist is refused offline and warned of by the nodes.
 
 """
 SECTIONS = {
@@ -47,7 +59,26 @@ def files() -> dict[Path, str]:
     return {
         CONFIG / "default.yaml": DEFAULT + parameter_file("/**", all_specs()),
         CONFIG / "nodes" / "bringup.yaml": NODES + "\n".join(sections),
+        ROOT / "docs" / "parameters.md": TABLES + tables(),
     }
+
+
+def tables() -> str:
+    """Return a table of the tracker's parameters and one for each node."""
+    parts = [table("Tracker (offline verbs, and the node `fusion`)", all_specs())]
+    for node in dict.fromkeys(SECTIONS.values()):
+        parts.append(table(f"Node `{node}`", node_specs(node)))
+    return "\n".join(parts)
+
+
+def table(title: str, specs: Iterable[ParameterSpec]) -> str:
+    """Return a Markdown table of ``specs``."""
+    lines = [f"## {title}", "", "| name | default | allowed | meaning |", "|---|---|---|---|"]
+    for spec in specs:
+        default = list(spec.default) if isinstance(spec.default, tuple) else spec.default
+        shown = f"`{default}`" if default != "" else ""
+        lines.append(f"| `{spec.name}` | {shown} | {spec.allowed} | {spec.description} |")
+    return "\n".join([*lines, ""])
 
 
 if __name__ == "__main__":

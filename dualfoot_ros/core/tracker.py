@@ -208,7 +208,7 @@ class DualFootTracker:
             session.phase,
             row=row,
             events=(*events, *found),
-            space=session.space,
+            blocks=session.space.blocks(),
             heading=session.headings.mean,
         )
 

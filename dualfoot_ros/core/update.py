@@ -11,7 +11,7 @@ from .kernel import layout as at
 from .rows import full_symmetric, zupt_event
 from .series import FloatArray
 from .trajectory import Event
-from .workspace import Workspace
+from .workspace import joint_covariance
 
 POSE_SIGNS = np.repeat([1.0, -1.0], 3)  # position error, rotation error = -phi
 
@@ -80,10 +80,11 @@ class PedestrianEstimate:
 class Update:
     """The result of one pair: what phase the tracker is in, the estimates, the events.
 
-    While the phase is "aligning" there is no estimate and ``left`` and ``right`` are None.
+    While the phase is "aligning" there is no estimate and ``left`` and ``right`` are None.  It is
+    a value: nothing of it changes with the pairs that follow.
     """
 
-    __slots__ = ("_heading", "_joint", "_noted", "phase", "refused", "row", "stamp_ns")
+    __slots__ = ("_blocks", "_heading", "_noted", "phase", "refused", "row", "stamp_ns")
 
     def __init__(
         self,
@@ -93,12 +94,12 @@ class Update:
         refused: str | None = None,
         row: FloatArray | None = None,
         events: tuple[Event, ...] = (),
-        space: Workspace | None = None,
+        blocks: FloatArray | None = None,
         heading: float = 0.0,
     ) -> None:
-        """Keep what was computed; covariances are copied only when asked for within the epoch."""
+        """Keep what was computed; ``blocks`` is the covariance as `Workspace.blocks` gives it."""
         self.stamp_ns, self.phase, self.refused, self.row = stamp_ns, phase, refused, row
-        self._noted, self._joint, self._heading = events, space, heading
+        self._noted, self._blocks, self._heading = events, blocks, heading
 
     @property
     def events(self) -> tuple[Event, ...]:
@@ -124,22 +125,18 @@ class Update:
         return self._foot(1)
 
     def _foot(self, foot: int) -> FootEstimate | None:
-        if self.row is None or self._joint is None:
+        if self.row is None or self._blocks is None:
             return None
         row = self.row[foot * at.O_FOOT : (foot + 1) * at.O_FOOT]
-        start = at.PLL if foot == 0 else at.PRR
-        block = self._joint.w[start : start + at.BLOCK].reshape(15, at.ROW)
-        return FootEstimate(row, pose_part(block))
+        block = self._blocks[foot * at.BLOCK : (foot + 1) * at.BLOCK]
+        return FootEstimate(row, pose_part(block.reshape(15, at.ROW)))
 
     def pedestrian(self) -> PedestrianEstimate | None:
-        """Return the mid-point of the feet with heading, from the joint covariance.
-
-        Like the feet's covariances it must be asked for before the next pair is added.
-        """
-        if self.row is None or self._joint is None:
+        """Return the mid-point of the feet with heading, from the joint covariance."""
+        if self.row is None or self._blocks is None:
             return None
         left, right = self.row[: at.O_FOOT], self.row[at.O_FOOT : 2 * at.O_FOOT]
-        joint = self._joint.covariance()
+        joint = joint_covariance(self._blocks)
         mean = np.zeros((9, 30))
         for i, (state, half) in enumerate(((at.E_POS, 0.5), (at.E_ATT, -0.5), (at.E_VEL, 0.5))):
             for axis in range(3):

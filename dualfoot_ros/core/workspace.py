@@ -137,10 +137,16 @@ class Workspace:
             self.n[at.N_FOOT + foot * at.N_STRIDE + at.N_PHASE] = at.SWING
         self.n[at.N_OLDEST] = self.n[at.N_EPOCH] + 1
 
+    def blocks(self) -> FloatArray:
+        """Return a copy of the covariance blocks (3 BLOCK,): left, right, cross."""
+        return self.w[at.PLL : at.STATE].copy()
+
     def covariance(self) -> FloatArray:
         """Return the full covariance (30, 30): left foot's error state, then the right foot's."""
-        ll, rr, lr = (
-            self.w[start : start + at.BLOCK].reshape(15, at.ROW)[:, :15]
-            for start in (at.PLL, at.PRR, at.PLR)
-        )
-        return np.block([[ll, lr], [lr.T, rr]])
+        return joint_covariance(self.w[at.PLL : at.STATE])
+
+
+def joint_covariance(blocks: FloatArray) -> FloatArray:
+    """Return the full covariance (30, 30) of the blocks (3 BLOCK,) left, right, cross."""
+    ll, rr, lr = blocks.reshape(3, 15, at.ROW)[:, :, :15]
+    return np.block([[ll, lr], [lr.T, rr]])

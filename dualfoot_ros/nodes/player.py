@@ -75,6 +75,11 @@ class Player:
         if self._thread.is_alive():
             self._thread.join()
 
+    def join(self, timeout_s: float) -> bool:
+        """Wait for the end; return whether it came within ``timeout_s``."""
+        self._thread.join(timeout_s)
+        return not self._thread.is_alive()
+
     def _run(self) -> None:
         try:
             self._play_all()

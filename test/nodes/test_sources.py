@@ -1,0 +1,45 @@
+import pytest
+
+from dualfoot_ros.core.errors import ConfigError
+from dualfoot_ros.nodes.sources import load, parse
+from dualfoot_ros.recording import RecordingError, read_bag
+
+
+@pytest.mark.parametrize(
+    ("uri", "scheme", "target"),
+    [
+        ("topic:///imu", "topic", "/imu"),
+        ("topic:///imu_a/data", "topic", "/imu_a/data"),
+        ("topic://imu/data", "topic", "imu/data"),
+        ("file://walk.csv", "file", "walk.csv"),
+        ("file:///data/walk.csv", "file", "/data/walk.csv"),
+        ("file:///my%20data/walk", "file", "/my data/walk"),
+    ],
+)
+def test_a_source_is_a_scheme_and_what_it_names(uri, scheme, target):
+    source = parse(uri)
+    assert (source.scheme, source.target) == (scheme, target)
+
+
+@pytest.mark.parametrize("uri", ["", "imu", "/imu", "ftp://a", "topic:///", "file://"])
+def test_what_is_no_source_is_refused_with_what_is_allowed(uri):
+    with pytest.raises(ConfigError, match="allowed is topic:///NAME or file://PATH"):
+        parse(uri)
+
+
+def test_one_foot_of_a_bag_is_a_source(walk_bag):
+    loaded = load(parse(f"file://{walk_bag}"), "right")
+    expected = read_bag(walk_bag).right
+    assert expected is not None
+    assert (loaded.stamp_ns == expected.stamp_ns).all()
+
+
+def test_a_missing_file_is_named():
+    with pytest.raises(RecordingError, match=r"there is no file '/no/such\.csv'"):
+        load(parse("file:///no/such.csv"), "left")
+
+
+def test_a_csv_of_the_sensors_app_is_a_source(dual_feet):
+    path = sorted(dual_feet.rglob("*.csv"))[0]
+    series = load(parse(f"file://{path}"), "left")
+    assert len(series) > 100

@@ -1,0 +1,92 @@
+import numpy as np
+from sensor_msgs.msg import Imu
+
+from dualfoot_ros.nodes import qos
+from dualfoot_ros.nodes.messages import imu_values, to_ns
+from dualfoot_ros.nodes.time_sync import TimeSyncNode
+from dualfoot_ros.recording import read_bag
+from dualfoot_ros.timing import align
+
+from .samples import STANDING, STEP_NS, imu
+
+
+class Feet:
+    """Publishes raw samples and collects synchronised ones."""
+
+    def __init__(self, bench, node):
+        probe = bench.plain()
+        profile = qos.sensor(10_000)
+        self.raw = {f: probe.create_publisher(Imu, f"{f}/imu/data_raw", profile) for f in FEET}
+        self.got = {"left": [], "right": []}
+        for foot in FEET:
+            probe.create_subscription(Imu, f"{foot}/imu/data_sync", self.got[foot].append, profile)
+        bench.until(
+            lambda: all(
+                node.count_publishers(f"{f}/imu/data_raw")
+                and self.raw[f].get_subscription_count()
+                and probe.count_publishers(f"{f}/imu/data_sync")
+                for f in FEET
+            ),
+            "discovery",
+        )
+
+
+FEET = ("left", "right")
+
+
+def test_two_streams_leave_with_equal_stamps_and_the_numbers_of_the_batch(bench, walk_bag):
+    node = bench.add(TimeSyncNode, {"input.depth": 10_000})
+    feet, recording = Feet(bench, node), read_bag(walk_bag)
+    series = {"left": recording.left[:300], "right": recording.right[7:290]}
+    for foot, each in series.items():
+        values = np.hstack([each.specific_force, each.angular_rate])
+        for stamp_ns, row in zip(each.stamp_ns.tolist(), values, strict=True):
+            feet.raw[foot].publish(imu(stamp_ns, row, f"{foot}_sensor"))
+    left, right = align(series["left"], series["right"])
+    bench.until(lambda: min(map(len, feet.got.values())) >= len(left), "pairs")
+    for foot, expected in (("left", left), ("right", right)):
+        stamps = [to_ns(m.header.stamp) for m in feet.got[foot]]
+        assert stamps == expected.stamp_ns.tolist()
+        found = np.array([imu_values(m) for m in feet.got[foot]])
+        np.testing.assert_array_equal(found[:, :3], expected.specific_force)
+        np.testing.assert_array_equal(found[:, 3:], expected.angular_rate)
+        assert {m.header.frame_id for m in feet.got[foot]} == {f"{foot}_sensor"}
+
+
+def test_bad_samples_are_refused_and_counted(bench):
+    node = bench.add(TimeSyncNode)
+    feet = Feet(bench, node)
+    for foot in FEET:
+        for k in range(5):
+            feet.raw[foot].publish(imu(k * STEP_NS))
+    bench.until(lambda: node.aligner.counters["pairs"] == 5, "first pairs")
+    feet.raw["left"].publish(imu(5 * STEP_NS, STANDING * np.nan))
+    feet.raw["left"].publish(imu(4 * STEP_NS))
+    feet.raw["right"].publish(imu(2 * STEP_NS))
+    feet.raw["left"].publish(imu(6 * STEP_NS, STANDING * np.inf))
+    bench.until(lambda: sum(each.received for each in node.inputs.values()) == 14, "bad samples")
+    counters = node.aligner.counters
+    assert counters["left_not_finite"] == 2 and counters["left_duplicate"] == 1
+    assert counters["right_out_of_order"] == 1 and counters["pairs"] == 5
+
+
+def test_one_foot_alone_gives_no_pairs(bench):
+    node = bench.add(TimeSyncNode)
+    feet = Feet(bench, node)
+    for k in range(200):
+        feet.raw["left"].publish(imu(k * STEP_NS))
+    bench.until(lambda: node.inputs["left"].received == 200, "samples")
+    assert feet.got == {"left": [], "right": []}
+    assert node.aligner.counters["outside"] > 0
+
+
+def test_a_bag_that_starts_again_is_counted_as_a_restart(bench):
+    node = bench.add(TimeSyncNode)
+    feet = Feet(bench, node)
+    for _ in range(2):
+        for k in range(100):
+            for foot in FEET:
+                feet.raw[foot].publish(imu(10**12 + k * STEP_NS))
+    bench.until(lambda: sum(each.received for each in node.inputs.values()) == 400, "samples")
+    assert node.aligner.counters["restarts"] >= 1
+    assert node.aligner.counters["pairs"] > 150

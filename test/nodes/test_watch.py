@@ -1,0 +1,88 @@
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import Imu
+from std_msgs.msg import String
+
+from dualfoot_ros.nodes import qos
+from dualfoot_ros.nodes.diagnostics import ERROR, Status
+from dualfoot_ros.nodes.watch import Input, Watch, watched_publisher
+
+from .samples import imu
+
+
+def listening(bench, profile=None):
+    node = bench.plain("listener")
+    each = Input(node, Imu, "imu", lambda _: None, profile or qos.sensor(10))
+    return each, Watch(node, [each], 0.3)
+
+
+def test_a_topic_without_publisher_is_named(bench):
+    each, watch = listening(bench)
+    bench.until(lambda: each.complaint(0.3))
+    assert each.complaint(0.3) == "topic '/imu' has no publisher"
+    status = Status()
+    watch.describe(status)
+    assert (status.level, status.message) == (ERROR, "topic '/imu' has no publisher")
+
+
+def test_a_silent_publisher_is_told_from_a_missing_one(bench):
+    each, _ = listening(bench)
+    bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
+    bench.until(lambda: "silent" in (each.complaint(0.3) or ""), "silence")
+
+
+def test_a_publisher_whose_qos_does_not_fit_is_said_with_the_policy(bench):
+    reliable = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+    each, _ = listening(bench, reliable)
+    bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
+    bench.until(lambda: "RELIABILITY" in (each.complaint(0.3) or ""), "incompatible QoS")
+    assert "does not fit" in each.complaint(0.3)
+
+
+def test_a_topic_of_another_type_is_said(bench):
+    each, _ = listening(bench)
+    bench.plain().create_publisher(String, "imu", 10)
+    bench.until(lambda: "std_msgs/msg/String" in (each.complaint(0.3) or ""), "another type")
+    assert "expected is sensor_msgs/msg/Imu" in each.complaint(0.3)
+
+
+def test_data_ends_the_complaint(bench):
+    each, _ = listening(bench)
+    publisher = bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
+    bench.until(publisher.get_subscription_count)
+    bench.until(lambda: each.complaint(0.3))
+    publisher.publish(imu(1))
+    bench.until(lambda: each.received == 1)
+    assert each.complaint(0.3) is None
+
+
+def test_samples_that_a_full_queue_drops_are_counted(bench):
+    each, _ = listening(bench, qos.sensor(5))
+    publisher = bench.plain().create_publisher(Imu, "imu", qos.sensor(1000))
+    bench.until(publisher.get_subscription_count)
+    publisher.publish(imu(0))
+    bench.until(lambda: each.received == 1)
+    for k in range(100):
+        publisher.publish(imu(k + 1))
+    bench.until(lambda: each.received == 6)
+    publisher.publish(imu(200))
+    bench.until(lambda: each.received == 7)
+    assert each.lost == 95
+
+
+def test_a_subscriber_that_asks_for_more_than_is_offered_is_warned_about(bench, program):
+    arguments = ["-p", "source:=topic:///sensor", "-r", "__ns:=/left"]
+    adapter = program("imu_adapter", "--ros-args", *arguments)
+    reliable = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+    bench.plain().create_subscription(Imu, "/left/imu/data_raw", lambda _: None, reliable)
+    said = "a subscriber of '/left/imu/data_raw' asks for a QoS that is not offered (RELIABILITY)"
+    bench.until(lambda: said in adapter.output, "the warning")
+
+
+def test_a_publisher_without_mismatch_says_nothing(bench, capfd):
+    node = bench.plain("talker")
+    publisher = watched_publisher(node, Imu, "imu", qos.sensor(10))
+    each, _ = listening(bench)
+    bench.until(publisher.get_subscription_count)
+    publisher.publish(imu(1))
+    bench.until(lambda: each.received == 1)
+    assert "QoS" not in capfd.readouterr().err

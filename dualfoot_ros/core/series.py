@@ -159,10 +159,27 @@ class PressureSeries:
     ----------
     stamp_ns : (N,) int64, of the same clock as the samples of the feet
     pressure : (N,) Pa
+
+    Raises
+    ------
+    SeriesError
+        When the two do not have the same length.
     """
 
     stamp_ns: IntArray
     pressure: FloatArray
+
+    def __post_init__(self) -> None:
+        """Bring both arrays to their types and check that the lengths agree."""
+        stamps = np.ascontiguousarray(self.stamp_ns, dtype=np.int64)
+        pressure = np.ascontiguousarray(self.pressure, dtype=np.float64)
+        if stamps.ndim != 1 or pressure.shape != stamps.shape:
+            raise SeriesError(
+                f"stamp_ns has shape {stamps.shape} and pressure {pressure.shape}; allowed is "
+                "(N,) for both"
+            )
+        object.__setattr__(self, "stamp_ns", stamps)
+        object.__setattr__(self, "pressure", pressure)
 
     def __len__(self) -> int:
         """Return the number of samples."""

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .aids import Barometer, FlatFloor
+from .aids import WORN, Barometer, FlatFloor, PressureLog
 from .alignment import Standstill
 from .config import TrackerConfig
 from .constraints.method import Method
@@ -18,7 +18,7 @@ from .kernel import layout as at
 from .rows import to_trajectory, turn_rows
 from .series import FloatArray, ImuPair, ImuSeries, IntArray, PressureSeries, stack_pairs
 from .session import Session
-from .trajectory import FEET, Event, EventKind, Trajectory
+from .trajectory import Event, EventKind, Trajectory
 from .update import Update
 
 LIMIT = 500.0  # m/s^2 and rad/s; no foot-mounted sensor reads more
@@ -50,6 +50,7 @@ class DualFootTracker:
         self._background = BackgroundEngine() if engine == "auto" else None
         self._engine = compiled() if engine == "compiled" else interpreted()
         self._pose: tuple[FloatArray, float] | None = None
+        self._pressure = {worn: PressureLog() for worn in WORN}
         self._begin()
 
     def _begin(self) -> None:
@@ -59,10 +60,9 @@ class DualFootTracker:
         self._early: list[tuple[int, FloatArray]] = []
         self._pending: list[Event] = []
         aids = self.config.aids
-        self._barometer = Barometer(aids) if aids.barometer else None
         self._aids: list[Method] = [FlatFloor(aids)] if aids.flat_floor else []
-        if self._barometer is not None:
-            self._aids.append(self._barometer)
+        if aids.barometer:
+            self._aids.append(Barometer(aids, self._pressure, self.counters))
 
     @property
     def engine(self) -> str:
@@ -127,21 +127,28 @@ class DualFootTracker:
             return Update(stamp, "aligning", events=self._take_pending())
         return self._track(self._session, stamp, dt_ns, values)
 
-    def add_pressure(self, foot: str, stamp_ns: int, pascal: float) -> str | None:
-        """Take air pressure (Pa) of "left", "right" or "both"; return why not, if refused.
+    def add_pressure(self, worn: str, stamp_ns: int, pascal: float) -> str | None:
+        """Take air pressure (Pa) of a sensor worn on "left" or "right", or on the body for "both".
 
-        It is used when ``aids.barometer`` is on; the stamp is of the clock of the pairs.
+        It is used when ``aids.barometer`` is on; the stamp is of the clock of the pairs.  Returns
+        the name of why it was refused, if it was; all is counted.
+
+        Raises
+        ------
+        ConfigError
+            When ``worn`` is none of these.
         """
-        if self._barometer is None or not 1e4 < pascal < 2e5:
-            reason = "pressure_unused" if self._barometer is None else "pressure_out_of_range"
-            self.counters[reason] += 1
-            return reason
-        for i, name in enumerate(FEET):
-            if foot in (name, "both") and not self._barometer.add(i, int(stamp_ns), pascal):
-                self.counters["pressure_out_of_order"] += 1
-                return "pressure_out_of_order"
-        self.counters["pressures"] += 1
-        return None
+        refused = self._take_pressure(worn, int(stamp_ns), float(pascal))
+        self._pressure[worn].trim()
+        return refused
+
+    def _take_pressure(self, worn: str, stamp_ns: int, pascal: float) -> str | None:
+        if worn not in WORN:
+            raise ConfigError(f"pressure is of '{worn}'; allowed is one of {', '.join(WORN)}")
+        used = self.config.aids.barometer
+        refused = self._pressure[worn].add(stamp_ns, pascal) if used else "pressure_unused"
+        self.counters[refused or "pressures"] += 1
+        return refused
 
     def _refusal(self, stamp: int, values: FloatArray) -> str | None:
         for value in values.tolist():
@@ -234,14 +241,16 @@ class DualFootTracker:
             When the series do not have the same stamps.
         AlignmentError
             When there is no standstill to align from.
+        ConfigError
+            When ``pressure`` has another key.
         """
         values = stack_pairs(left, right)
         if self._background is not None:
             engine = self._background.wait()
             self._use(engine if engine is not None else self._engine)
-        for foot, series in (pressure or {}).items():
+        for worn, series in (pressure or {}).items():
             for stamp, pascal in zip(series.stamp_ns, series.pressure, strict=True):
-                self.add_pressure(foot, int(stamp), float(pascal))
+                self._take_pressure(worn, int(stamp), float(pascal))
         stamps, rows, events = self._run(left.stamp_ns, values)
         if self._session is None:
             raise AlignmentError(self._no_standstill(left))

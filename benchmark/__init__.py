@@ -1,0 +1,1 @@
+"""What the tracker costs: ``python -m benchmark``.  Timings live here, never in a test."""

@@ -39,6 +39,7 @@ setup(
         "scipy>=1.11",
     ],
     extras_require={
+        "ble": ["bleak>=0.21"],
         "test": ["pytest", "hypothesis"],
         "dev": ["mypy", "pytest-xdist", "ruff", "types-PyYAML"],
         "ros": ["ros-jazzy-common-interfaces", "ros-jazzy-rclpy[fastrtps]"],

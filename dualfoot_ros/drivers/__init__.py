@@ -1,8 +1,34 @@
 """Real sensors: bytes of a device in, samples in SI units out."""
 
+from .checks import Checks, SensorCheck
+from .conditioning import Conditioner, Conditioning
 from .decoder import COUNTERS, Decoder
 from .errors import SourceError
 from .formats import FORMATS, make_decoder
+from .reader import Backoff, Reader, State
 from .sample import Sample
+from .source import Source, make_transport
+from .transport import Transport
+from .uri import SCHEMES, SourceUri, parse_uri
 
-__all__ = ["COUNTERS", "FORMATS", "Decoder", "Sample", "SourceError", "make_decoder"]
+__all__ = [
+    "COUNTERS",
+    "FORMATS",
+    "SCHEMES",
+    "Backoff",
+    "Checks",
+    "Conditioner",
+    "Conditioning",
+    "Decoder",
+    "Reader",
+    "Sample",
+    "SensorCheck",
+    "Source",
+    "SourceError",
+    "SourceUri",
+    "State",
+    "Transport",
+    "make_decoder",
+    "make_transport",
+    "parse_uri",
+]

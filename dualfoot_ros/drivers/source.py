@@ -1,0 +1,134 @@
+"""A source: transport, thread, decoder and checks, put together from one URI."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from types import TracebackType
+from typing import Self
+
+from . import address
+from .ble import BleOptions, BleTransport
+from .checks import Checks, SensorCheck
+from .conditioning import Conditioner, Conditioning
+from .dot import DotOptions
+from .file import FileOptions, FileTransport
+from .formats import make_decoder
+from .pacing import Pacer
+from .reader import Reader, State
+from .sample import Sample
+from .serial_port import SerialOptions, SerialTransport
+from .tcp import TcpOptions, TcpTransport
+from .transport import Transport
+from .udp import UdpOptions, UdpTransport
+from .uri import SourceUri, parse_uri
+
+
+class Source:
+    """Samples of one device, handed to ``on_samples`` from a thread of the source's own.
+
+    ``with Source(uri, on_samples):`` starts it and stops it.  ``on_state`` is told when the link
+    comes and goes, with a reason in words.
+    """
+
+    def __init__(
+        self,
+        uri: str,
+        on_samples: Callable[[list[Sample]], None],
+        *,
+        on_state: Callable[[State, str], None] | None = None,
+        conditioning: Conditioning | None = None,
+        checks: Checks | None = None,
+        clock: Callable[[], int] = time.time_ns,
+    ) -> None:
+        """Put the source together; nothing is opened before :meth:`start`.
+
+        Raises
+        ------
+        SourceError
+            When the URI, the file it names or the axes are not allowed, or bleak is missing.
+        """
+        parsed = parse_uri(uri)
+        self.uri = uri
+        self.decoder = make_decoder(parsed.format, parsed.decoder)
+        self.transport = make_transport(parsed)
+        self.check = SensorCheck(checks)
+        self.reader = Reader(self.transport, self._take, self._change, parsed.backoff, clock)
+        self._conditioner = Conditioner(conditioning)
+        self._on_samples = on_samples
+        self._on_state = on_state or (lambda state, reason: None)
+        self._pacer = _pacer(parsed, self.reader.stopping, clock)
+
+    def start(self) -> None:
+        """Start reading."""
+        self.reader.start()
+
+    def stop(self) -> None:
+        """Stop reading; no callback comes after this returns."""
+        self.reader.stop()
+
+    def __enter__(self) -> Self:
+        self.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.stop()
+
+    @property
+    def state(self) -> State:
+        """Where the link stands."""
+        return self.reader.state
+
+    @property
+    def counters(self) -> dict[str, int]:
+        """Everything that is counted: by the link, the decoder and the checks."""
+        parts = self.reader, self.transport, self.decoder, self.check
+        return {name: n for part in parts for name, n in part.counters.items() if n}
+
+    def _change(self, state: State, reason: str) -> None:
+        if state is State.CONNECTED:
+            self.decoder.reset()
+        self._on_state(state, reason)
+
+    def _take(self, data: bytes, arrival_ns: int) -> None:
+        decoded = map(self._conditioner.apply, self.decoder.feed(data, arrival_ns))
+        samples = [sample for sample in decoded if self.check.accept(sample)]
+        if samples and self._pacer is not None:
+            self._pacer.deliver(samples, self._on_samples)
+        elif samples:
+            self._on_samples(samples)
+
+
+def make_transport(uri: SourceUri) -> Transport:
+    """Return the transport that a URI asks for, not yet open.
+
+    Raises
+    ------
+    SourceError
+        When the address is malformed, the file is absent or bleak is missing.
+    """
+    match uri.transport:
+        case SerialOptions():
+            return SerialTransport(uri.location, uri.transport)
+        case UdpOptions():
+            return UdpTransport(address.parse(uri.location), uri.transport)
+        case TcpOptions():
+            return TcpTransport(address.parse(uri.location), uri.transport)
+        case BleOptions():
+            dot = uri.decoder if isinstance(uri.decoder, DotOptions) else None
+            return BleTransport(uri.location, uri.transport, dot)
+        case FileOptions():
+            return FileTransport(uri.location, uri.transport)
+    raise AssertionError(uri)
+
+
+def _pacer(uri: SourceUri, stopping: threading.Event, clock: Callable[[], int]) -> Pacer | None:
+    if isinstance(uri.transport, FileOptions) and uri.transport.speed > 0.0:
+        return Pacer(uri.transport.speed, stopping, clock)
+    return None

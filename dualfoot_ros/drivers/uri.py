@@ -1,0 +1,149 @@
+"""A source as one line: ``serial:///dev/ttyUSB0?baud=921600&format=mcu``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+from urllib.parse import parse_qsl, unquote, urlsplit
+
+from ..core.errors import ConfigError
+from ..core.parameters import Parameters
+from .ble import BleOptions
+from .errors import SourceError
+from .file import FileOptions
+from .formats import FORMATS, find_format
+from .reader import Backoff
+from .serial_port import SerialOptions
+from .tcp import TcpOptions
+from .udp import UdpOptions
+
+
+class Scheme(NamedTuple):
+    """A kind of source."""
+
+    options: type[Parameters]
+    example: str
+
+
+SCHEMES: dict[str, Scheme] = {
+    "serial": Scheme(SerialOptions, "serial:///dev/ttyUSB0?baud=921600&format=mcu"),
+    "udp": Scheme(UdpOptions, "udp://0.0.0.0:8000?format=ximu3&peers=192.168.1.5"),
+    "tcp": Scheme(TcpOptions, "tcp://192.168.1.5:7000?format=ximu3"),
+    "ble": Scheme(BleOptions, "ble://D4:22:CD:00:12:34?payload=rate"),
+    "file": Scheme(FileOptions, "file://walk.csv"),
+}
+DEFAULT_FORMATS = {"ble": "dot", "file": "dot_csv"}
+
+
+@dataclass(frozen=True)
+class SourceUri:
+    """A source, taken apart and checked."""
+
+    scheme: str
+    location: str
+    format: str
+    transport: Parameters
+    decoder: Parameters
+    backoff: Backoff
+
+
+def parse_uri(uri: str) -> SourceUri:
+    """Return the parts of the URI of a source.
+
+    Raises
+    ------
+    SourceError
+        For an unknown scheme, format or option, or a value that is not allowed; says which.
+    """
+    try:
+        parts = urlsplit(uri)
+    except ValueError as error:
+        raise SourceError(f"source '{uri}' is no URI: {error}") from None
+    if parts.scheme not in SCHEMES:
+        examples = ", ".join(scheme.example for scheme in SCHEMES.values())
+        raise SourceError(
+            f"source '{uri}' starts with no known scheme; allowed is, as in {examples}"
+        )
+    if parts.fragment:
+        raise SourceError(f"source '{uri}' has a '#'; write %23 where it is part of a name")
+    location = unquote(parts.netloc + parts.path)
+    if not location:
+        raise SourceError(
+            f"source '{uri}' names nothing; allowed is as in {SCHEMES[parts.scheme].example}"
+        )
+    return _with_options(uri, parts.scheme, location, _query(uri, parts.query))
+
+
+def _query(uri: str, query: str) -> dict[str, str]:
+    pairs = parse_qsl(query, keep_blank_values=True)
+    twice = {name for name, _ in pairs if sum(name == other for other, _ in pairs) > 1}
+    if twice:
+        raise SourceError(f"source '{uri}' gives {', '.join(sorted(twice))} twice")
+    return dict(pairs)
+
+
+def _with_options(uri: str, scheme: str, location: str, query: dict[str, str]) -> SourceUri:
+    chosen = query.pop("format", "") or _default_format(uri, scheme, location)
+    groups = SCHEMES[scheme].options, find_format(chosen).options, Backoff
+    known = {spec.name for group in groups for spec in group.specs()}
+    unknown = sorted(set(query) - known)
+    if unknown:
+        raise SourceError(
+            f"source '{uri}' has an unknown option '{unknown[0]}'; "
+            f"known: {', '.join(['format', *sorted(known)])}"
+        )
+    try:
+        transport, decoder, backoff = (from_text(group, query) for group in groups)
+    except ConfigError as error:
+        raise SourceError(f"source '{uri}': {error}") from None
+    assert isinstance(backoff, Backoff)
+    _check_fit(uri, scheme, chosen)
+    return SourceUri(scheme, location, chosen, transport, decoder, backoff)
+
+
+def _default_format(uri: str, scheme: str, location: str) -> str:
+    plain_file = scheme == "file" and not location.lower().endswith(".csv")
+    if scheme not in DEFAULT_FORMATS or plain_file:
+        raise SourceError(
+            f"source '{uri}' does not say what the device sends; add format= with one of "
+            f"{', '.join(FORMATS)}"
+        )
+    return DEFAULT_FORMATS[scheme]
+
+
+def _check_fit(uri: str, scheme: str, chosen: str) -> None:
+    if (scheme == "ble") != (chosen == "dot"):
+        raise SourceError(
+            f"source '{uri}' has the format '{chosen}'; 'dot' goes with ble:// and nothing else "
+            "does"
+        )
+
+
+def from_text(group: type[Parameters], query: dict[str, str]) -> Parameters:
+    """Build a group of parameters from those texts that are its own.
+
+    Raises
+    ------
+    ConfigError
+        When a text is not of the parameter's type or out of its range.
+    """
+    return group.from_mapping(dict(_values(group, query)))
+
+
+def _values(group: type[Parameters], query: dict[str, str]) -> Iterator[tuple[str, object]]:
+    for spec in group.specs():
+        if spec.name in query:
+            yield spec.name, _value(spec.default, query[spec.name])
+
+
+def _value(default: object, text: str) -> object:
+    """Read a text as the type of ``default``; as it is where that fails, to be refused by name."""
+    if isinstance(default, bool):
+        return {"true": True, "1": True, "false": False, "0": False}.get(text.lower(), text)
+    if isinstance(default, str):
+        return text
+    try:
+        return int(text) if isinstance(default, int) else float(text)
+    except ValueError:
+        return text

@@ -1,0 +1,73 @@
+"""What the tests of real links share: collecting, waiting, and what a process holds."""
+
+import os
+import threading
+import time
+import tty
+from pathlib import Path
+
+
+class Collector:
+    """Takes what a source hands on."""
+
+    def __init__(self):
+        self.samples = []
+        self.states = []
+        self.threads = set()
+        self._changed = threading.Condition()
+
+    def take(self, samples):
+        with self._changed:
+            self.samples += samples
+            self.threads.add(threading.current_thread())
+            self._changed.notify_all()
+
+    def state(self, state, reason):
+        with self._changed:
+            self.states.append((state, reason))
+            self._changed.notify_all()
+
+    def wait_for(self, condition, seconds=10.0):
+        with self._changed:
+            return self._changed.wait_for(lambda: condition(self), seconds)
+
+    def wait_for_samples(self, count, seconds=10.0):
+        return self.wait_for(lambda c: len(c.samples) >= count, seconds)
+
+    def wait_for_state(self, state, seconds=10.0):
+        return self.wait_for(lambda c: c.states and c.states[-1][0] is state, seconds)
+
+
+class PluggedDevice:
+    """A serial device at a path; can be unplugged and come back, with another number behind."""
+
+    def __init__(self, path: Path):
+        self.path = path
+        self._ends = None
+
+    def plug(self):
+        self._ends = os.openpty()
+        tty.setraw(self._ends[1])
+        self.path.symlink_to(os.ttyname(self._ends[1]))
+
+    def send(self, data):
+        os.write(self._ends[0], data)
+
+    def unplug(self):
+        self.path.unlink(missing_ok=True)
+        for end in self._ends or ():
+            os.close(end)
+        self._ends = None
+
+
+def held():
+    """Return how many descriptors and threads this process has."""
+    return len(os.listdir("/proc/self/fd")), threading.active_count()
+
+
+def settle(expected, seconds=5.0):
+    """Return what is held, once it is back at ``expected`` or time is up."""
+    deadline = time.monotonic() + seconds
+    while held() != expected and time.monotonic() < deadline:
+        time.sleep(0.01)
+    return held()

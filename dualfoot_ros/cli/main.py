@@ -17,6 +17,7 @@ VERBS = {
     "import": "import_",
     "simulate": "simulate",
     "info": "info",
+    "sync": "sync",
     "evaluate": "evaluate",
 }
 EXIT_BAD_INPUT = 2

@@ -84,6 +84,14 @@ class DeviceClock:
         """Return the host time in ns of a device time; None before the first sample."""
         return None if self._time is None else self._time.at(device_ns) - self._delay_ns
 
+    def line_at(self, device_ns: int) -> tuple[int, float]:
+        """Return host minus device (ns) at a device time by the line as it is now, and its std.
+
+        The standard deviation is in s.  Only after the first sample.
+        """
+        std_s = self._line.std_at(self._seconds(device_ns))
+        return self._offset_ns(device_ns) - self._delay_ns, std_s
+
     def restart(self) -> None:
         """Forget the clock (the device's driver saw it restart); the counters stay."""
         if self._time is not None:
@@ -151,7 +159,7 @@ class DeviceClock:
             else:
                 self._admit(held)
             return True
-        return small or not self._tracking and above_ns > -OLD_NS
+        return small or (not self._tracking and above_ns > -OLD_NS)
 
     def _admit(self, held: list[Arrival]) -> None:
         for device_ns, arrival_ns in held:

@@ -16,14 +16,14 @@ class ClockModel(Parameters):
         "arrivals older than this are forgotten; longer is steadier, shorter follows warming up",
         unit="s",
         minimum=5.0,
-        maximum=3600.0,
+        maximum=86_400.0,
     )
     bin: float = parameter(
         0.5,
         "of each such stretch of device time only the fastest arrival is kept",
         unit="s",
         minimum=0.05,
-        maximum=10.0,
+        maximum=600.0,
     )
     skew_scale: float = parameter(
         100.0,
@@ -68,15 +68,15 @@ class ClockModel(Parameters):
         maximum=60.0,
     )
     max_slew: float = parameter(
-        2000.0,
+        5000.0,
         "fastest such correction while tracking; the stamps never step",
         unit="ppm",
         minimum=10.0,
         maximum=100_000.0,
     )
     jump: float = parameter(
-        0.03,
-        "shift of all arrivals that is a jump of a clock rather than of the delay",
+        0.1,
+        "shift of all arrivals that is a jump of a clock; longer than a connection interval",
         unit="s",
         minimum=0.001,
         maximum=10.0,

@@ -55,8 +55,9 @@ class Unwrapper:
     Successive counts are taken as the shorter way round.  Where arrival times are given, whole
     turns of the counter during a gap are found from them, and a count that disagrees with them
     by more than ``slack`` begins a new ``epoch``: a ``restart`` when the count is smaller than
-    before, else a ``jump``.  A count that just goes on is believed: the link had a long stall.  A counter whose range is shorter than twice the slack (16 bits of
-    microseconds: 66 ms) cannot tell a restart from a stall; there whole turns are rounded.
+    before, else a ``jump``.  A count that just goes on is believed: the link had a long stall.
+    A counter whose range is shorter than twice the slack (16 bits of microseconds: 66 ms) cannot
+    tell a restart from a stall; there whole turns are rounded.
 
     ``counters`` holds ``counted``, ``wraps``, ``duplicates``, ``out_of_order``, ``restarts`` and
     ``jumps``.

@@ -1,0 +1,205 @@
+"""The clock of a device is followed from arrivals alone, and what is wrong with it is said."""
+
+import tracemalloc
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from dualfoot_ros.simulation.arrivals import BleLink, arrivals
+from dualfoot_ros.timing import ClockModel, DeviceClock
+
+START = 1_750_000_000_000_000_000
+SECOND = 1_000_000_000
+LINK = BleLink(interval=0.0371)
+
+
+def recording(drift=0.0, offset=0.0, rate=100.0, duration=40.0, link=LINK, seed=0):
+    """Return true time, device stamps and arrivals, (N,) ns each."""
+    speed = 1.0 + 1e-6 * drift
+    true = START + np.round(np.arange(int(duration * rate)) * 1e9 / (rate * speed)).astype(
+        np.int64
+    )
+    device = START + round(offset * 1e9) + np.round((true - START) * speed).astype(np.int64)
+    return true, device, arrivals(link, true, np.random.default_rng(seed))
+
+
+def follow(clock, device, arrived):
+    return [clock.update(int(d), int(a)) for d, a in zip(device, arrived, strict=True)]
+
+
+def errors_ms(found, true, link=LINK):
+    return (np.array(found, dtype=np.float64) - true) * 1e-6 - 1e3 * link.least
+
+
+@pytest.mark.parametrize("drift", [-2000.0, -40.0, 0.0, 300.0, 2000.0])
+@pytest.mark.parametrize("offset", [-3600.0, 0.0, 3600.0])
+def test_after_twenty_seconds_of_ble_the_clock_is_right_to_a_millisecond(drift, offset):
+    true, device, arrived = recording(drift, offset, duration=60.0)
+    clock = DeviceClock()
+    error = errors_ms(follow(clock, device, arrived), true)[true - START > 20 * SECOND]
+    assert np.sqrt(np.mean(error**2)) < 1.0
+    assert np.abs(error).max() < 3.0
+    assert clock.state.skew_ppm == pytest.approx(drift, abs=4.0 * clock.state.skew_std_ppm + 1.0)
+    assert clock.state.phase == "tracking"
+    assert clock.epoch == 0
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    drift=st.floats(-9000.0, 9000.0),
+    interval=st.floats(0.015, 0.05),
+    burst=st.integers(1, 12),
+    seed=st.integers(0, 10_000),
+)
+def test_host_time_is_strictly_increasing_from_the_first_sample_on(drift, interval, burst, seed):
+    link = BleLink(interval=interval, burst=burst)
+    _, device, arrived = recording(drift, 17.0, duration=15.0, link=link, seed=seed)
+    clock = DeviceClock()
+    found = follow(clock, device, arrived)
+    assert clock.epoch == 0
+    assert np.all(np.diff(found) > 0)
+
+
+@settings(max_examples=15, deadline=None)
+@given(shift=st.integers(-(10**18), 10**18), device_shift=st.integers(-(10**18), 10**18))
+def test_a_shift_of_either_clock_shifts_the_result_and_nothing_else(shift, device_shift):
+    _, device, arrived = recording(123.0, duration=4.0)
+    plain = follow(DeviceClock(), device, arrived)
+    moved = follow(DeviceClock(), device + device_shift, arrived + shift)
+    assert [m - p for m, p in zip(moved, plain, strict=True)] == [shift] * len(plain)
+
+
+def test_while_tracking_the_rate_is_never_off_by_more_than_the_stated_slew():
+    true, device, arrived = recording(250.0, duration=60.0)
+    config = ClockModel(max_slew=500.0)
+    found = np.array(follow(DeviceClock(config), device, arrived))[true - START > 20 * SECOND]
+    rate = np.diff(found) / 1e7 * 1e6 - 1e6
+    assert np.abs(rate + 250.0).max() < 500.0 + 60.0  # the estimate of the skew moves too
+
+
+def test_the_first_seconds_are_sensible():
+    true, device, arrived = recording(1500.0, 900.0)
+    error = errors_ms(follow(DeviceClock(), device, arrived), true)
+    seconds = (true - START) * 1e-9
+    assert np.abs(error).max() < 250.0  # the delay of the first burst
+    assert np.abs(error[seconds > 3.0]).max() < 25.0
+    assert np.abs(error[seconds > 8.0]).max() < 8.0
+
+
+def test_a_perfect_link_is_followed_to_microseconds():
+    link = BleLink(burst=1, handling=0.0, failure=0.0, stall=0.0, tail_share=0.0)
+    true, device, _ = recording(-700.0, 5.0, link=link)
+    found = follow(DeviceClock(), device, true + 2_000_000)
+    error = (np.array(found) - true - 2_000_000)[true - START > 20 * SECOND]
+    assert np.abs(error).max() < 20_000
+
+
+def test_a_known_least_delay_is_taken_off():
+    _, device, arrived = recording()
+    plain = follow(DeviceClock(), device, arrived)
+    less = follow(DeviceClock(ClockModel(delay=0.004)), device, arrived)
+    assert {p - q for p, q in zip(plain, less, strict=True)} == {4_000_000}
+
+
+def test_repeated_samples_change_nothing():
+    _, device, arrived = recording(80.0, duration=20.0)
+    once = follow(DeviceClock(), device, arrived)
+    clock = DeviceClock()
+    twice = follow(clock, np.repeat(device, 2), np.repeat(arrived, 2))
+    assert twice[::2] == once
+    assert clock.epoch == 0
+
+
+@settings(max_examples=20, deadline=None)
+@given(
+    wrong=st.lists(st.integers(1500, 3900), min_size=1, max_size=8, unique=True),
+    by=st.floats(0.05, 5000.0),
+    which=st.sampled_from(["arrival early", "arrival late", "stamp ahead", "stamp behind"]),
+)
+def test_single_wrong_times_neither_move_the_clock_nor_restart_it(wrong, by, which):
+    wrong = [k for k in wrong if k - 60 not in wrong]
+    wrong = [k for i, k in enumerate(wrong) if all(abs(k - j) > 400 for j in wrong[:i])]
+    true, device, arrived = recording(80.0)
+    shift = round(by * 1e9)
+    device, arrived = device.copy(), arrived.copy()
+    if which.startswith("arrival"):
+        arrived[wrong] += shift if which.endswith("late") else -shift
+    else:
+        device[wrong] += shift if which.endswith("ahead") else -shift
+    clock = DeviceClock()
+    found = follow(clock, device, arrived)
+    good = true - START > 20 * SECOND
+    good[wrong] = False
+    error = errors_ms([0 if f is None else f for f in found], true)[good]
+    assert clock.epoch == 0
+    assert np.abs(error).max() < 4.0
+
+
+def test_a_device_that_restarts_is_followed_again():
+    true, device, arrived = recording(50.0, duration=80.0)
+    again = device.copy()
+    again[4000:] -= int(device[4000]) - 5_000_000
+    clock = DeviceClock()
+    found = follow(clock, again, arrived)
+    assert clock.counters["restarts"] == 1
+    assert clock.epoch == 1
+    late = slice(6500, None)
+    assert np.abs(errors_ms(found[late], true[late])).max() < 3.0
+    assert sum(f is None for f in found) < 50
+
+
+@pytest.mark.parametrize("jump", [-0.3, -5.0, 0.3, 5.0])
+def test_a_host_clock_that_is_set_is_a_jump_and_followed_again(jump):
+    true, device, arrived = recording(50.0, duration=90.0)
+    host, arrived = true.copy(), arrived.copy()
+    arrived[4000:] += round(jump * 1e9)
+    host[4000:] += round(jump * 1e9)
+    clock = DeviceClock()
+    found = follow(clock, device, arrived)
+    assert clock.counters["jumps"] == 1
+    late = slice(7500, None)
+    assert np.abs(errors_ms(found[late], host[late])).max() < 3.0
+
+
+def test_a_skew_beyond_the_limit_is_named_and_its_samples_are_not_used():
+    _, device, arrived = recording(15_000.0, duration=20.0)
+    clock = DeviceClock()
+    found = follow(clock, device, arrived)
+    assert clock.state.phase == "refused"
+    assert clock.state.skew_ppm == pytest.approx(15_000.0, abs=200.0)
+    assert found[-1] is None
+    assert clock.counters["bad_skew"] == found.count(None) > 500
+
+
+def test_late_samples_get_the_time_they_would_have_got():
+    _, device, arrived = recording(300.0, duration=25.0)
+    clock = DeviceClock()
+    found = follow(clock, device, arrived)
+    for back in (1, 10, 100):
+        assert clock.translate(int(device[-1 - back])) == pytest.approx(found[-1 - back], abs=1e6)
+
+
+def test_memory_does_not_grow():
+    clock = DeviceClock(ClockModel(horizon=10.0))
+    _, device, arrived = recording(duration=120.0)
+    follow(clock, device[:3000], arrived[:3000])
+    tracemalloc.start()
+    follow(clock, device[3000:6000], arrived[3000:6000])
+    before = tracemalloc.get_traced_memory()[0]
+    for d, a in zip(device[6000:].tolist(), arrived[6000:].tolist(), strict=True):
+        clock.update(d, a)
+    after = tracemalloc.get_traced_memory()[0]
+    tracemalloc.stop()
+    assert after - before < 20_000
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.lists(st.tuples(st.integers(-(2**62), 2**62), st.integers(-(2**62), 2**62)), max_size=40)
+)
+def test_no_stamps_raise(pairs):
+    clock = DeviceClock()
+    for device, arrived in pairs:
+        assert clock.update(device, arrived) is None or clock.state.phase != "empty"

@@ -8,6 +8,7 @@ exact: nominal states, covariance and every snapshot turn with it, and an event 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,33 +20,59 @@ from .trajectory import FEET, Event, EventKind
 from .workspace import Workspace
 
 LEAST_WAY = 0.5  # m; a shorter way has no direction
+SCATTER_RATE = 0.03  # rad/s, of a foot's heading over two strides of a straight walk
+
+
+@dataclass(frozen=True)
+class Direction:
+    """Where a foot went on its first strides.
+
+    Attributes
+    ----------
+    angle : rad, of the way between the two stances
+    turned : rad, by which the foot's heading turned from the one to the other
+    seconds : between them
+    stamp_ns : half-way between them
+    rotation : (3, 3) R_nb in the second of them
+    pivot : (3,) m, where the foot stood first
+    """
+
+    angle: float
+    turned: float
+    seconds: float
+    stamp_ns: int
+    rotation: FloatArray
+    pivot: FloatArray
 
 
 class FirstStrides:
-    """Collects one foot's stance positions until they give a direction."""
+    """Collects one foot's stances until they give a direction."""
 
     def __init__(self, config: Heading) -> None:
         """Use ``config.from_stance`` and ``config.to_stance`` (stance 0 is the stand)."""
         self._config = config
-        self._stances: list[FloatArray] = []
+        self._stances: list[tuple[FloatArray, FloatArray, int]] = []
 
-    @property
-    def pivot(self) -> FloatArray:
-        """Where the foot stood first (3,), m; undefined before the first stance."""
-        return self._stances[0].copy()
-
-    def add(self, position: FloatArray) -> float | None:
-        """Take the position (3,) m of the next stance; return the direction when it is known.
+    def add(self, position: FloatArray, rotation: FloatArray, stamp_ns: int) -> Direction | None:
+        """Take the next stance: position (3,) m, R_nb (3, 3); return the direction if known.
 
         A foot that has hardly moved (steps on the spot) waits for later stances.
         """
-        self._stances.append(position)
+        self._stances.append((position, rotation, stamp_ns))
         if len(self._stances) <= self._config.to_stance:
             return None
-        way = position - self._stances[self._config.from_stance]
+        start, start_rotation, start_ns = self._stances[self._config.from_stance]
+        way = position - start
         if math.hypot(way[0], way[1]) < LEAST_WAY:
             return None
-        return math.atan2(way[1], way[0])
+        return Direction(
+            math.atan2(way[1], way[0]),
+            turn_between(start_rotation, rotation),
+            (stamp_ns - start_ns) * 1e-9,
+            start_ns + (stamp_ns - start_ns) // 2,
+            rotation,
+            self._stances[0][0],
+        )
 
 
 class Headings:
@@ -56,8 +83,10 @@ class Headings:
         self._space = space
         as_is = config.source == "sensor"
         self._strides = [None if as_is else FirstStrides(config) for _ in FEET]
-        self._offsets = [0.0, 0.0]  # yaw of the sensor when the foot points forward
+        self._first: Direction | None = None  # of the foot that was turned first
         self.forward = config.given
+        # a rotation of each sensor and the heading of the foot at that moment
+        self._reference: list[tuple[FloatArray, float] | None] = [None, None]
         self.feet = (config.given, config.given)
 
     @property
@@ -79,19 +108,48 @@ class Headings:
         strides = self._strides[foot]
         if strides is None:
             if walking:
-                heading = self._sensor_yaw(foot) - self._offsets[foot]
-                self.feet = (heading, self.feet[1]) if foot == 0 else (self.feet[0], heading)
+                self._follow(foot)
             return []
         start = foot * at.FOOT + at.POS
-        direction = strides.add(self._space.w[start : start + 3].copy())
+        position = self._space.w[start : start + 3].copy()
+        direction = strides.add(position, self._rotation(foot), stamp)
         if direction is None:
             return []
         self._strides[foot] = None
-        turned = turn(
-            self._space, engine, foot, self.forward - direction, strides.pivot, np.zeros(3), stamp
+        heading = self._forward_at(direction)
+        by = heading - direction.angle
+        self._reference[foot] = (
+            about_z(by) @ direction.rotation,
+            heading + 0.5 * direction.turned,
         )
-        self._offsets[foot] = self._sensor_yaw(foot) - self.forward
+        turned = turn(self._space, engine, foot, by, direction.pivot, np.zeros(3), stamp)
+        self._follow(foot)
         return [turned]
+
+    def _follow(self, foot: int) -> None:
+        """Take the heading of ``foot`` from how its sensor has turned since the reference."""
+        known = self._reference[foot]
+        if known is None:
+            known = self._reference[foot] = (self._rotation(foot), self.forward)
+        rotation, heading = known
+        heading += turn_between(rotation, self._rotation(foot))
+        self.feet = (heading, self.feet[1]) if foot == 0 else (self.feet[0], heading)
+
+    def _forward_at(self, direction: Direction) -> float:
+        """Return the heading of the walk when a foot went its ``direction``, rad.
+
+        The foot that is first defines forward.  The other one went its way half a stride earlier
+        or later, between which a walk that starts in a curve turns by several degrees.  A turn
+        that may be no more than the scatter of the footprints counts for little.
+        """
+        if self._first is None:
+            self._first = direction
+            return self.forward
+        both = (self._first, direction)
+        rate = 0.5 * sum(one.turned / one.seconds for one in both)
+        trust = rate**2 / (rate**2 + SCATTER_RATE**2)
+        apart = (direction.stamp_ns - self._first.stamp_ns) * 1e-9
+        return self.forward + trust * rate * apart
 
     def set_pose(
         self, engine: Engine, position: FloatArray, yaw: float, stamp: int
@@ -101,11 +159,14 @@ class Headings:
         middle = 0.5 * (w[at.POS : at.POS + 3] + w[at.FOOT + at.POS : at.FOOT + at.POS + 3])
         by, shift = yaw - self.mean, position - middle
         self.feet = (self.feet[0] + by, self.feet[1] + by)
+        for foot, known in enumerate(self._reference):
+            if known is not None:
+                self._reference[foot] = (about_z(by) @ known[0], known[1] + by)
         return [turn(self._space, engine, f, by, middle, shift, stamp) for f in range(2)]
 
-    def _sensor_yaw(self, foot: int) -> float:
-        w, rotation = self._space.w, foot * at.FOOT + at.ROT
-        return math.atan2(w[rotation + 3], w[rotation])
+    def _rotation(self, foot: int) -> FloatArray:
+        start = foot * at.FOOT + at.ROT
+        return self._space.w[start : start + 9].reshape(3, 3).copy()
 
 
 def turn(
@@ -127,6 +188,18 @@ def turn(
         "shift": tuple(float(v) for v in shift),
     }
     return Event(EventKind.HEADING, stamp, FEET[foot], stamp, detail=detail)
+
+
+def turn_between(before: FloatArray, after: FloatArray) -> float:
+    """Return the turn about the vertical between two R_nb (3, 3), rad, however the sensor sits."""
+    m = after @ before.T
+    return math.atan2(m[1, 0] - m[0, 1], m[0, 0] + m[1, 1])
+
+
+def about_z(angle: float) -> FloatArray:
+    """Return the rotation (3, 3) about the vertical by ``angle`` rad."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def mean_angle(a: float, b: float) -> float:

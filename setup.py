@@ -41,7 +41,7 @@ setup(
     extras_require={
         "ble": ["bleak>=0.21"],
         "test": ["pytest", "hypothesis"],
-        "dev": ["mypy", "pytest-xdist", "ruff", "types-PyYAML"],
+        "dev": ["mypy", "pytest-xdist", "ruff", "setuptools", "types-PyYAML"],
         "ros": ["ros-jazzy-common-interfaces", "ros-jazzy-rclpy[fastrtps]"],
     },
     entry_points={

@@ -70,11 +70,11 @@ class Health:
     def collect(self, status: Status) -> None:
         """Fill in a report."""
         self._node.watch.describe(status)
-        self._describe_state(status)
-        self._describe_counters(status)
         for suspicion in self._node.suspicions.values():
             for sentence in suspicion.said:
                 status.note(WARN, sentence)
+        self._describe_state(status)
+        self._describe_counters(status)
 
     def _describe_state(self, status: Status) -> None:
         tracker = self._node.tracker

@@ -7,7 +7,7 @@ from dualfoot_ros.nodes.time_sync import TimeSyncNode
 from dualfoot_ros.recording import read_bag
 from dualfoot_ros.timing import align
 
-from .samples import STANDING, STEP_NS, imu
+from .samples import STEP_NS, imu
 
 
 class Feet:
@@ -60,10 +60,10 @@ def test_bad_samples_are_refused_and_counted(bench):
         for k in range(5):
             feet.raw[foot].publish(imu(k * STEP_NS))
     bench.until(lambda: node.aligner.counters["pairs"] == 5, "first pairs")
-    feet.raw["left"].publish(imu(5 * STEP_NS, STANDING * np.nan))
+    feet.raw["left"].publish(imu(5 * STEP_NS, [np.nan] * 6))
     feet.raw["left"].publish(imu(4 * STEP_NS))
     feet.raw["right"].publish(imu(2 * STEP_NS))
-    feet.raw["left"].publish(imu(6 * STEP_NS, STANDING * np.inf))
+    feet.raw["left"].publish(imu(6 * STEP_NS, [np.inf] * 6))
     bench.until(lambda: sum(each.received for each in node.inputs.values()) == 14, "bad samples")
     counters = node.aligner.counters
     assert counters["left_not_finite"] == 2 and counters["left_duplicate"] == 1

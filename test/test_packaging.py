@@ -1,0 +1,182 @@
+"""The package as others install it: with colcon, with pip, on a stock ROS 2 and without one."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from importlib import import_module
+from pathlib import Path
+from unittest.mock import patch
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+EXECUTABLES = {"bringup", "fusion", "imu_adapter", "replay", "time_sync"}
+
+
+@pytest.fixture(scope="module")
+def setup_arguments():
+    """Return what setup.py hands to setuptools."""
+    pytest.importorskip("setuptools")
+    with patch("setuptools.setup") as setup:
+        before = os.getcwd()
+        os.chdir(ROOT)
+        try:
+            exec(compile((ROOT / "setup.py").read_text(), "setup.py", "exec"), {})
+        finally:
+            os.chdir(before)
+    return setup.call_args.kwargs
+
+
+@pytest.fixture(scope="module")
+def manifest():
+    """Return the root of package.xml."""
+    return ElementTree.parse(ROOT / "package.xml").getroot()
+
+
+def test_version_and_licence_agree_everywhere(setup_arguments, manifest):
+    version = manifest.findtext("version")
+    assert setup_arguments["version"] == version
+    assert re.search(rf"^{re.escape(version)} ", (ROOT / "CHANGELOG.rst").read_text(), re.M)
+    assert manifest.findtext("license") == setup_arguments["license"] == "Apache-2.0"
+    assert "Apache License" in (ROOT / "LICENSE").read_text()
+
+
+def test_manifest_is_format_3_and_ament_python(manifest):
+    assert manifest.get("format") == "3"
+    assert manifest.findtext("export/build_type") == "ament_python"
+
+
+def test_only_the_extra_ros_pulls_the_wheels(setup_arguments):
+    required = [*setup_arguments["install_requires"]]
+    for name, extra in setup_arguments["extras_require"].items():
+        required += extra if name != "ros" else []
+    assert not [each for each in required if each.startswith("ros-") or "rclpy" in each]
+    assert "ros-jazzy-rclpy[fastrtps]" in setup_arguments["extras_require"]["ros"]
+
+
+def test_colcon_test_finds_pytest(setup_arguments):
+    assert "pytest" in setup_arguments["extras_require"]["test"]
+
+
+def test_every_imported_ros_package_is_declared(manifest):
+    declared = {each.text for each in manifest.iter("exec_depend")}
+    imported = set()
+    for path in [*(ROOT / "dualfoot_ros").rglob("*.py"), *(ROOT / "launch").glob("*.py")]:
+        for name in re.findall(r"^\s*from (\w+)(?:\.\w+)* import", path.read_text(), re.M):
+            if name.endswith("_msgs") or name in ("rclpy", "std_srvs", "launch", "launch_ros"):
+                imported.add(name)
+    imported |= {"builtin_interfaces"}
+    assert imported <= declared
+
+
+def test_every_console_script_is_a_function_that_exists(setup_arguments):
+    pytest.importorskip("rclpy")
+    scripts = dict(re.split(r" = ", each) for each in scripts_of(setup_arguments))
+    assert EXECUTABLES | {"dualfoot"} == set(scripts)
+    for target in scripts.values():
+        module, _, name = target.partition(":")
+        assert callable(getattr(import_module(module), name))
+
+
+def scripts_of(setup_arguments):
+    return setup_arguments["entry_points"]["console_scripts"]
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory):
+    """Install a copy as colcon does, and return the prefix."""
+    pytest.importorskip("setuptools")
+    source = tmp_path_factory.mktemp("source") / "dualfoot_ros"
+    ignored = shutil.ignore_patterns(".*", "__pycache__", "build", "install", "log", "*.egg-info")
+    shutil.copytree(ROOT, source, ignore=ignored)
+    prefix = tmp_path_factory.mktemp("prefix")
+    record = ["--single-version-externally-managed", "--record", str(prefix / "record.txt")]
+    done = subprocess.run(
+        [sys.executable, "setup.py", "install", "--prefix", str(prefix), *record],
+        cwd=source,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    return prefix
+
+
+def test_installed_executables_are_where_ros2_run_looks(installed):
+    found = {path.name for path in (installed / "lib" / "dualfoot_ros").iterdir()}
+    assert found >= EXECUTABLES
+    assert not (installed / "bin").exists()
+
+
+def test_installed_share_has_marker_manifest_presets_and_launch_file(installed):
+    share = installed / "share"
+    assert (share / "ament_index/resource_index/packages/dualfoot_ros").is_file()
+    assert (share / "dualfoot_ros/package.xml").is_file()
+    for folder in ("config", "config/nodes", "launch"):
+        names = {path.name for path in (ROOT / folder).iterdir() if path.is_file()}
+        assert {
+            p.name for p in (share / "dualfoot_ros" / folder).iterdir() if p.is_file()
+        } == names
+
+
+def run_installed(installed, *command, **variables):
+    (site,) = installed.rglob("site-packages")
+    env = {**os.environ, "PYTHONPATH": str(site), **variables}
+    return subprocess.run(command, cwd=installed, env=env, capture_output=True, text=True)
+
+
+def test_an_installed_executable_runs(installed):
+    pytest.importorskip("rclpy")
+    done = run_installed(installed, str(installed / "lib/dualfoot_ros/fusion"), "--help")
+    assert done.returncode == 0, done.stderr
+    assert "left|right/odometry" in done.stdout
+
+
+@pytest.mark.parametrize("prefix", ["", "share of nothing", "here"])
+def test_presets_are_found_with_and_without_the_ament_index(installed, prefix):
+    ament = {"AMENT_PREFIX_PATH": str(installed) if prefix == "here" else prefix}
+    code = "from dualfoot_ros.presets import *; print(preset_names(), find_config('liu2023'))"
+    done = run_installed(installed, sys.executable, "-c", code, **ament)
+    assert done.returncode == 0, done.stderr
+    assert "'default'" in done.stdout and "liu2023.yaml" in done.stdout
+    assert str(installed) in done.stdout
+    assert ("/share/" in done.stdout) == (prefix == "here")
+
+
+def test_make_names_its_targets_without_an_environment():
+    make = shutil.which("make")
+    if make is None:
+        pytest.skip("make is not installed")
+    done = subprocess.run([make, "-C", str(ROOT)], capture_output=True, text=True)
+    assert done.returncode == 0
+    for target in ("demo", "test", "bags", "clean"):
+        assert f"make {target} " in done.stdout
+
+
+def test_a_python_that_does_not_fit_is_refused_in_a_sentence(tmp_path):
+    script = ROOT / "scripts" / "make_venv"
+    env = {**os.environ, "PYTHON": "/no/such/python"}
+    done = subprocess.run([script, tmp_path / "venv"], env=env, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "PYTHON=/no/such/python is not a Python 3.11 or 3.12" in done.stderr
+    assert not (tmp_path / "venv").exists()
+
+
+def test_a_python_without_venv_names_the_package_to_install(tmp_path):
+    fake = tmp_path / "python3.12"
+    fake.write_text(
+        "#!/bin/sh\n"
+        'case "$2" in\n'
+        "*ensurepip*) exit 1 ;;\n"
+        f"*executable*) echo {fake} ;;\n"
+        "*%d.%d*) echo 3.12 ;;\n"
+        "esac\n"
+    )
+    fake.chmod(0o755)
+    env = {**os.environ, "PYTHON": str(fake)}
+    script = ROOT / "scripts" / "make_venv"
+    done = subprocess.run([script, tmp_path / "venv"], env=env, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "apt install python3.12-venv" in done.stderr

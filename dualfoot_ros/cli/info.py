@@ -16,6 +16,7 @@ from .bags import add_topic_arguments, load_bag
 if TYPE_CHECKING:
     from ..recording import Recording
     from ..recording.checks import Finding
+    from ..recording.pressure import PressureFacts
     from ..recording.quality import Quality
     from ..recording.stances import Stances
 
@@ -99,6 +100,8 @@ def _words(
             yield f"  {_walked(stances[foot])}"
     if len(qualities) == 2:
         yield f"both feet: {_together(qualities['left'], qualities['right'])}"
+    for worn, facts in _pressure(recording).items():
+        yield f"pressure on {_barometer(worn, facts)}"
     yield f"truth: {_truth(recording)}"
     reference = recording.reference
     yield f"reference: {reference.summary() if reference else 'none'}"
@@ -158,6 +161,23 @@ def _together(left: Quality, right: Quality) -> str:
     )
 
 
+def _pressure(recording: Recording) -> dict[str, PressureFacts]:
+    from ..recording.pressure import facts_of
+
+    return {worn: facts_of(series) for worn, series in recording.pressure.items()}
+
+
+def _barometer(worn: str, facts: PressureFacts) -> str:
+    from ..recording.pressure import wearer
+
+    return (
+        f"{wearer(worn)}: {facts.samples} samples from {facts.start_s:.3f} to "
+        f"{facts.end_s:.3f} s, {facts.rate_hz:.2f} Hz, median {facts.median:.1f} Pa; height from "
+        f"{facts.lowest_m:+.1f} to {facts.highest_m:+.1f} m against the start, noise "
+        f"{facts.noise_m:.2f} m a sample (evaluate uses it with --set aids.barometer=true)"
+    )
+
+
 def _truth(recording: Recording) -> str:
     counts = [
         f"{len(truth)} poses of the {foot} foot"
@@ -180,6 +200,7 @@ def _facts(
     return {
         "notes": dict(recording.notes),
         "feet": feet,
+        "pressure": {worn: asdict(facts) for worn, facts in _pressure(recording).items()},
         "truth": {f: len(t) for f in ("left", "right") if (t := recording.truth(f)) is not None},
         "reference": None if reference is None else reference.summary(),
         "findings": [asdict(f) for f in found],

@@ -10,6 +10,7 @@ import numpy as np
 from ..core.series import ImuSeries
 from ..core.trajectory import FEET
 from .errors import RecordingError
+from .pressure import pressure_findings
 from .quality import Quality, quality_of
 from .recording import Recording
 
@@ -70,6 +71,8 @@ def findings(
     for foot, quality in usable.items():
         yield from _standing(foot, quality)
         yield from _stream(foot, quality)
+    for name, sentence in pressure_findings(recording.pressure, usable):
+        yield Finding("warning", name, sentence)
 
 
 def qualities_of(recording: Recording) -> dict[str, Quality]:

@@ -10,10 +10,11 @@ import numpy as np
 from ..core.series import FloatArray, IntArray
 from . import cdr
 from .errors import RecordingError
-from .topics import FIELD_TYPE, IMU_TYPE, TRUTH_TYPE
+from .topics import FIELD_TYPE, IMU_TYPE, PRESSURE_TYPE, TRUTH_TYPE
 
 IMU_DOUBLES = 37  # orientation, its covariance, rate, covariance, specific force, covariance
 FIELD_DOUBLES = 12  # field, its covariance
+PRESSURE_DOUBLES = 2  # pressure, its variance
 TRUTH_DOUBLES = 85  # pose (3 + 4), covariance (36), twist (3 + 3), covariance (36)
 RATE = slice(13, 16)
 FORCE = slice(25, 28)
@@ -89,6 +90,10 @@ def _field(m: Any) -> FloatArray:
     return np.concatenate([(b.x, b.y, b.z), m.magnetic_field_covariance])
 
 
+def _pressure(m: Any) -> FloatArray:
+    return np.array([m.fluid_pressure, m.variance])
+
+
 def _truth(m: Any) -> FloatArray:
     p, q = m.pose.pose.position, m.pose.pose.orientation
     v, w = m.twist.twist.linear, m.twist.twist.angular
@@ -102,9 +107,10 @@ def _truth(m: Any) -> FloatArray:
     )
 
 
-_FLAT = {IMU_TYPE: _imu, FIELD_TYPE: _field, TRUTH_TYPE: _truth}
+_FLAT = {IMU_TYPE: _imu, FIELD_TYPE: _field, PRESSURE_TYPE: _pressure, TRUTH_TYPE: _truth}
 _LAYOUT = {
     IMU_TYPE: (IMU_DOUBLES, 1),
     FIELD_TYPE: (FIELD_DOUBLES, 1),
+    PRESSURE_TYPE: (PRESSURE_DOUBLES, 1),
     TRUTH_TYPE: (TRUTH_DOUBLES, 2),
 }

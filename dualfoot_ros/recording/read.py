@@ -8,16 +8,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..core.series import FloatArray, ImuSeries, PoseSeries
+from ..core.series import FloatArray, ImuSeries, PoseSeries, PressureSeries
 from ..core.trajectory import FEET
 from . import messages
 from .errors import RecordingError
 from .open_bag import iterate, opened
 from .recording import Recording
 from .reference import FILE_NAME, Reference
-from .topics import FIELD_TYPE, IMU_TYPE, TRUTH_TYPE, Topics
+from .topics import FIELD_TYPE, IMU_TYPE, PRESSURE_TYPE, TRUTH_TYPE, Topics
 
 if TYPE_CHECKING:
+    from rosbags.interfaces import Connection
     from rosbags.rosbag2 import Reader
 
 Progress = Callable[[float], None]
@@ -30,7 +31,8 @@ def read_bag(
     """Read the samples, the truth and the reference of a rosbag2 recording (MCAP or sqlite3).
 
     ``path`` is the folder of the bag, or its one .mcap or .db3 file.  A topic that is not there
-    is None in the recording.  ``progress`` is called with the share read, 0 to 1.
+    is None in the recording.  A pressure topic of another type is somebody else's and not read.
+    ``progress`` is called with the share read, 0 to 1.
 
     Raises
     ------
@@ -53,6 +55,7 @@ def read_bag(
         parts[f"{foot}_frame"] = _frame(tables.get(names.imu), names.imu_frame)
     return Recording(
         **parts,
+        pressure=_pressure(tables, topics),
         reference=_reference(path),
         notes=raw.notes,
         topics=topics,
@@ -70,7 +73,7 @@ def _read_raw(path: Path, topics: Topics, progress: Progress | None) -> _Raw:
     expected = _expected_types(topics)
     raw: dict[str, tuple[str, list[bytes]]] = {}
     with opened(path) as reader:
-        wanted = [c for c in reader.connections if c.topic in expected]
+        wanted = [c for c in reader.connections if c.topic in expected and not _foreign(c, topics)]
         for connection in wanted:
             _check_type(connection.topic, connection.msgtype, expected[connection.topic])
             raw[connection.topic] = (connection.msgtype, [])
@@ -90,7 +93,12 @@ def _expected_types(topics: Topics) -> dict[str, str]:
         expected[names.imu] = IMU_TYPE
         expected[names.magnetic_field] = FIELD_TYPE
         expected[names.truth] = TRUTH_TYPE
-    return expected
+    return expected | dict.fromkeys(topics.pressure.values(), PRESSURE_TYPE)
+
+
+def _foreign(connection: Connection, topics: Topics) -> bool:
+    """Return whether it has the common name "pressure" but is something else."""
+    return connection.topic in topics.pressure.values() and connection.msgtype != PRESSURE_TYPE
 
 
 def _check_type(topic: str, found: str, expected: str) -> None:
@@ -133,6 +141,15 @@ def _truth(truth: messages.Table | None) -> PoseSeries | None:
         return PoseSeries(truth.stamp_ns, truth.values[:, :3], quaternion, body_velocity)
     velocity = Rotation.from_quat(quaternion).apply(body_velocity)
     return PoseSeries(truth.stamp_ns, truth.values[:, :3], quaternion, velocity)
+
+
+def _pressure(tables: dict[str, messages.Table], topics: Topics) -> dict[str, PressureSeries]:
+    there = {worn: tables.get(topic) for worn, topic in topics.pressure.items()}
+    return {
+        worn: PressureSeries(table.stamp_ns, table.values[:, 0])
+        for worn, table in there.items()
+        if table is not None and len(table.stamp_ns)
+    }
 
 
 def _frame(imu: messages.Table | None, default: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from ..core.series import ImuSeries, PoseSeries
+from ..core.series import ImuSeries, PoseSeries, PressureSeries
 from .reference import Reference
 from .topics import Topics
 
@@ -19,6 +19,7 @@ class Recording:
     left, right : samples in the order they were recorded, stamps as recorded; None if missing
     left_truth, right_truth : true poses (velocity in the navigation frame), where there are any
     reference : floor markers and the like, where there are any
+    pressure : air pressure of sensors worn on "left", "right", or on the body for "both"
     left_frame, right_frame : frame ids of the two sensors
     notes : further facts that travel with the bag (where it comes from, which clock it has ...)
     topics : the names under which the samples were looked for
@@ -30,6 +31,7 @@ class Recording:
     left_truth: PoseSeries | None = None
     right_truth: PoseSeries | None = None
     reference: Reference | None = None
+    pressure: Mapping[str, PressureSeries] = field(default_factory=dict)
     left_frame: str = "left_imu"
     right_frame: str = "right_imu"
     notes: Mapping[str, str] = field(default_factory=dict)

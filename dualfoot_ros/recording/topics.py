@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 IMU_TYPE = "sensor_msgs/msg/Imu"
 FIELD_TYPE = "sensor_msgs/msg/MagneticField"
 TRUTH_TYPE = "nav_msgs/msg/Odometry"
+PRESSURE_TYPE = "sensor_msgs/msg/FluidPressure"
+PRESSURE_TOPICS = {"left": "/left/pressure", "right": "/right/pressure", "both": "/pressure"}
 
 
 @dataclass(frozen=True)
@@ -22,7 +25,10 @@ class FootTopics:
 
 @dataclass(frozen=True)
 class Topics:
-    """Topics of both feet; the defaults are those of every bag this package writes."""
+    """Topics of both feet; the defaults are those of every bag this package writes.
+
+    ``pressure`` goes by where the sensor is worn: on a foot, or on the body for "both".
+    """
 
     left: FootTopics = FootTopics(
         "/left/imu/data_raw", "/left/imu/mag", "/left/ground_truth", "left_imu", "left_foot"
@@ -30,6 +36,7 @@ class Topics:
     right: FootTopics = FootTopics(
         "/right/imu/data_raw", "/right/imu/mag", "/right/ground_truth", "right_imu", "right_foot"
     )
+    pressure: Mapping[str, str] = field(default_factory=lambda: dict(PRESSURE_TOPICS))
 
     def of(self, foot: str) -> FootTopics:
         """Return the topics of ``foot``, "left" or "right"."""

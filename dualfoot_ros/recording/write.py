@@ -18,9 +18,10 @@ from .open_bag import METADATA
 from .read import NOTE_PREFIX, Progress
 from .recording import Recording
 from .reference import FILE_NAME
-from .topics import FIELD_TYPE, IMU_TYPE, TRUTH_TYPE, Topics
+from .topics import FIELD_TYPE, IMU_TYPE, PRESSURE_TYPE, TRUTH_TYPE, Topics
 
 STORAGES = ("mcap", "sqlite3")
+BODY_FRAME = "base_link"
 LAST_STAMP = 2**31 * 1_000_000_000  # builtin_interfaces/Time has 32-bit seconds
 
 
@@ -80,6 +81,11 @@ def _channels(recording: Recording, topics: Topics) -> Iterator[_Channel]:
         if truth is not None and len(truth):
             frames = ("odom", names.foot_frame)
             yield _channel(names.truth, TRUTH_TYPE, truth.stamp_ns, _truth_values(truth), frames)
+    for worn, series in recording.pressure.items():
+        values = np.zeros((len(series), messages.PRESSURE_DOUBLES))  # variance 0: unknown
+        values[:, 0] = series.pressure
+        frame = recording.frame(worn) if worn in FEET else BODY_FRAME
+        yield _channel(topics.pressure[worn], PRESSURE_TYPE, series.stamp_ns, values, (frame,))
 
 
 def _channel(

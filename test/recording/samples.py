@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from dualfoot_ros.core import ImuSeries, PoseSeries
+from dualfoot_ros.core import ImuSeries, PoseSeries, PressureSeries
 from dualfoot_ros.recording import Recording, Reference
 
 RATE_HZ = 100.0
@@ -34,6 +34,12 @@ def truth(stamps, seed=0):
     )
 
 
+def pressure(stamps, seed=0, pascal=101325.0):
+    """Return air pressure at about sea level with 2 Pa of noise."""
+    noise = np.random.default_rng(seed).normal(0.0, 2.0, len(stamps))
+    return PressureSeries(np.asarray(stamps), pascal + noise)
+
+
 def recording(**parts):
     """Return a recording of two feet with everything a bag can hold."""
     left, right = moving(1), moving(2)
@@ -46,6 +52,11 @@ def recording(**parts):
         "reference": Reference(
             "a tape measure", {"right": np.arange(6.0).reshape(2, 3)}, True, 12.5
         ),
+        "pressure": {
+            "left": pressure(left.stamp_ns[::4]),
+            "right": pressure(right.stamp_ns[::4], 1),
+            "both": pressure(left.stamp_ns[::8] + 5, 2, 95000.0),
+        },
         "notes": {"source": "made up"},
     }
     return Recording(**(whole | parts))

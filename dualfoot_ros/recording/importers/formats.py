@@ -93,4 +93,8 @@ def _shifted(recording: Recording, offset_ns: int) -> Recording:
     stamps = right.stamp_ns + np.int64(offset_ns)
     notes = {**recording.notes, "right_offset_s": f"{offset_ns * 1e-9:.9f}"}
     moved: ImuSeries = replace(right, stamp_ns=stamps)
-    return replace(recording, right=moved, notes=notes)
+    pressure = dict(recording.pressure)
+    if "right" in pressure:
+        series = pressure["right"]
+        pressure["right"] = replace(series, stamp_ns=series.stamp_ns + np.int64(offset_ns))
+    return replace(recording, right=moved, pressure=pressure, notes=notes)

@@ -19,6 +19,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from ..core import DualFootTracker, TrackerConfig, Trajectory
+from ..core.errors import DualFootError
 from ..core.series import ImuSeries
 from ..timing import align
 from .collector import CollectorNode
@@ -98,14 +99,25 @@ class LiveGraph:
         return max(self._under_way()) < AHEAD
 
     def run(self, progress: Progress) -> None:
-        """Spin until everything has arrived, or nothing has moved for a while."""
+        """Spin until everything has arrived, or nothing has moved for a while.
+
+        Raises
+        ------
+        DualFootError
+            When the bag was not played to its end.
+        """
         executor = SingleThreadedExecutor(context=self.context)
         try:
             for node in self._nodes:
                 executor.add_node(node)
+            self.replay.player.start()
             self._spin(executor, progress)
         finally:
             executor.shutdown()
+        if not self.replay.done.done():
+            raise DualFootError(
+                f"the replay stopped after {self.replay.player.played} of {self.total} samples"
+            )
 
     def _spin(self, executor: SingleThreadedExecutor, progress: Progress) -> None:
         state: tuple[int, ...] = ()

@@ -40,7 +40,7 @@ class ReplayNode(Node):
     """Publishes a recording; ``done`` is completed at its end.
 
     With a ``gate`` samples go out one by one as it opens, so that within one process nothing is
-    lost at any speed.
+    lost at any speed; whoever holds the gate starts ``player`` when it is ready.
     """
 
     def __init__(self, *, gate: Callable[[], bool] | None = None, **options: Any) -> None:
@@ -77,7 +77,8 @@ class ReplayNode(Node):
             finished=self._finish,
         )
         self._reporter = Reporter(self, group(Reports, values, "reports.").period, self._collect)
-        self.player.start()
+        if gate is None:
+            self.player.start()
 
     def _subscribed(self) -> bool:
         return all(publisher.get_subscription_count() for publisher in self._out.values())

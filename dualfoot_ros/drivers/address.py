@@ -30,12 +30,21 @@ def parse(text: str) -> Address:
         When there is no port, or it is out of range.
     """
     host, colon, port = text.rpartition(":")
-    if not colon or not port.isascii() or not port.isdigit() or int(port) > 65535:
+    digits = port.isascii() and port.isdigit() and len(port) <= 5
+    if not colon or not digits or int(port) > 65535 or not _is_host(host):
         raise SourceError(
             f"the address is '{text}'; allowed is HOST:PORT with a port from 0 to 65535, "
             f"and :PORT for this machine only ({LOOPBACK})"
         )
     return Address(host.strip("[]") or LOOPBACK, int(port))
+
+
+def _is_host(host: str) -> bool:
+    try:
+        host.encode("idna")
+    except UnicodeError:
+        return False
+    return True
 
 
 def resolve(address: Address, kind: socket.SocketKind) -> tuple[socket.AddressFamily, Any]:

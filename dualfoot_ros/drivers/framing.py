@@ -16,6 +16,9 @@ Returns its length in bytes when it is complete and valid, else NEED_MORE, NO_FR
 BAD_CHECKSUM.
 """
 
+Doubt = Callable[[bytes, bool], bool]
+"""Whether a valid frame may well be chance; the flag says that it follows another directly."""
+
 
 class DelimitedFramer:
     """Split at a byte that occurs nowhere else; a run without it is dropped when too long."""
@@ -63,21 +66,21 @@ class DelimitedFramer:
 class HeaderFramer:
     """Find frames that begin with a known byte and prove themselves by length and checksum.
 
-    Two rules keep it in step.  A frame that follows no other directly is trusted only when the
-    next one follows (``confirm``, for weak checksums).  And a header that is still waiting for
-    its bytes, as garbage may fake one that announces a long frame, gives way as soon as two
-    complete valid frames in a row stand behind it.  Where bytes were skipped between two frames,
-    an empty one stands in the result, for decoders that join frames.
+    Two rules keep it in step.  A frame in ``doubt``, as its checksum is weak, is trusted only when
+    the next one follows directly.  And a header that still waits for its bytes, as garbage may
+    fake one that announces a long frame, gives way as soon as two complete valid frames in a row
+    stand behind it.  Where bytes were skipped between two frames, an empty one stands in the
+    result, for decoders that join frames.
     """
 
     def __init__(
-        self, sync: int, probe: Probe, max_frame: int, counters: Counter[str], *, confirm: bool
+        self, sync: int, probe: Probe, max_frame: int, counters: Counter[str], doubt: Doubt
     ) -> None:
         """Search frames of at most ``max_frame`` bytes that start with the byte ``sync``."""
         self._sync = bytes([sync])
         self._probe = probe
         self._counters = counters
-        self._confirm = confirm
+        self._doubt = doubt
         self._buffer = bytearray()
         self._in_step = False
         self.max_buffer = 2 * max_frame
@@ -119,12 +122,12 @@ class HeaderFramer:
         return frames
 
     def _judge(self, at: int) -> int:
-        """Probe a frame; out of step and to be confirmed, probe the one that follows as well."""
+        """Probe a frame; in doubt, probe the one that follows as well."""
         length = self._probe(self._buffer, at)
-        if length > 0 and self._confirm and not self._in_step:
-            following = self._probe(self._buffer, at + length)
-            return length if following > 0 else min(following, NEED_MORE)
-        return length
+        if length <= 0 or not self._doubt(bytes(self._buffer[at : at + length]), self._in_step):
+            return length
+        following = self._probe(self._buffer, at + length)
+        return length if following > 0 else min(following, NEED_MORE)
 
     def _skip(self, at: int, reason: int) -> int:
         """Step over the byte at ``at`` and on to the next possible header."""

@@ -58,7 +58,7 @@ class WitMotionDecoder:
         """Start with an empty buffer."""
         options = options or WitMotionOptions()
         self.counters: Counter[str] = Counter()
-        self._framer = HeaderFramer(HEADER, probe, LENGTH, self.counters, confirm=True)
+        self._framer = HeaderFramer(HEADER, probe, LENGTH, self.counters, after_a_gap)
         self.max_buffer = self._framer.max_buffer
         self._force_scale = options.force_range * STANDARD_GRAVITY / FULL_SCALE
         self._rate_scale = options.rate_range * RADIAN / FULL_SCALE
@@ -141,6 +141,11 @@ def probe(buffer: bytearray, at: int) -> int:
         return NEED_MORE
     valid = sum(buffer[at : at + LENGTH - 1]) & 0xFF == buffer[at + LENGTH - 1]
     return LENGTH if valid else BAD_CHECKSUM
+
+
+def after_a_gap(_frame: bytes, in_step: bool) -> bool:
+    """Doubt what follows no frame: a sum of eight bits is right by chance too often."""
+    return not in_step
 
 
 def _milliseconds(content: bytes) -> int | None:

@@ -28,6 +28,7 @@ PACKET_COUNTER, SAMPLE_TIME_FINE, TEMPERATURE = 0x1020, 0x1060, 0x0810
 ACCELERATION, ACCELERATION_HR = 0x4020, 0x4040
 RATE_OF_TURN, RATE_OF_TURN_HR = 0x8020, 0x8040
 MAGNETIC_FIELD = 0xC020
+MOTION = (ACCELERATION, ACCELERATION_HR, RATE_OF_TURN, RATE_OF_TURN_HR)
 KIND, PRECISION = 0xFFF0, 0x3
 SIZES = (4, 4, 6, 8)  # bytes of a float, of fixed-point 12.20 and 16.32, of a double
 TICK_NS = 100_000  # SampleTimeFine counts at 10 kHz
@@ -56,7 +57,7 @@ class XbusDecoder:
     def __init__(self, options: XbusOptions | None = None) -> None:
         """Start with an empty buffer."""
         self.counters: Counter[str] = Counter()
-        self._framer = HeaderFramer(PREAMBLE, probe, MAX_FRAME, self.counters, confirm=True)
+        self._framer = HeaderFramer(PREAMBLE, probe, MAX_FRAME, self.counters, no_motion)
         self.max_buffer = self._framer.max_buffer
         self._packets = PacketCounter(self.counters, 16)
         self._field_unit = (options or XbusOptions()).field_unit
@@ -131,6 +132,16 @@ def probe(buffer: bytearray, at: int) -> int:
     if frame[2] == MTDATA2 and not _is_row_of_items(_content(frame)):
         return NO_FRAME
     return length
+
+
+def no_motion(frame: bytes, _in_step: bool) -> bool:
+    """Doubt all messages but those with acceleration or rate of turn: these are no chance."""
+    if frame[2] != MTDATA2:
+        return True
+    return not any(
+        key & KIND in MOTION and len(value) == 3 * SIZES[key & PRECISION]
+        for key, value in items_of(_content(frame))
+    )
 
 
 def items_of(content: bytes) -> Iterator[tuple[int, bytes]]:

@@ -80,6 +80,7 @@ def test_what_is_wrong_is_refused_and_what_is_allowed_is_said(text, says):
     [
         ("udp://localhost?format=mcu", "HOST:PORT"),
         ("udp://localhost:99999?format=mcu", "65535"),
+        ("tcp://a..b:7000?format=mcu", "a..b:7000"),
         ("udp://:8000?format=mcu&peers=foot", "IP addresses"),
         ("file://no_such.csv", "no_such.csv"),
     ],

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from .progress import progress
-from .settings import setting
+from .simulate_options import barometer, configurations, show_choices
 
 if TYPE_CHECKING:
     from ..core import PoseSeries
     from ..recording import Recording
-    from ..simulation import ClockConfig, SensorConfig, Simulation, WalkConfig
+    from ..simulation import Simulation
 
 HELP = "simulate a walk with a sensor on each foot and exact truth, as a bag"
 EXAMPLES = """\
@@ -24,10 +23,9 @@ examples:
   dualfoot simulate -o heels --mounting heel --set gait.min_distance=0.25
   dualfoot simulate -o clocks --set right_clock.offset=12.5 --set right_clock.drift=40
   dualfoot simulate -o board --route L --one-shoe 0.014     two sensors on the right shoe
+  dualfoot simulate -o climb --route stairs --barometer     air pressure too
   dualfoot simulate --list                                  routes, mountings, grades, parameters
 """
-GROUPS = ("gait", "sensor", "left_clock", "right_clock")
-PLAIN = ("route", "laps", "speed", "rate", "mounting", "standing", "stops", "stop_duration")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -76,6 +74,13 @@ def _add_sensor(parser: argparse.ArgumentParser) -> None:
         metavar="M",
         help="put both sensors on the right shoe, this far apart along it",
     )
+    group.add_argument(
+        "--barometer",
+        nargs="?",
+        const="feet",
+        metavar="WORN",
+        help="air pressure too, on the feet (default) or on the body",
+    )
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
@@ -101,7 +106,7 @@ def run(args: argparse.Namespace) -> int:
     from ..simulation import SimulationError
 
     if args.list:
-        return _list(args)
+        return show_choices(args.json)
     if args.output is None:
         raise SimulationError("no output given; name the bag to write with -o BAG")
     if args.seed < 0:
@@ -119,7 +124,7 @@ def _simulate(args: argparse.Namespace) -> int:
     walked = walk(walk_config, args.seed)
     if args.one_shoe is not None:
         walked = rigid_pair(walked, args.one_shoe)
-    simulation = simulate(walked, sensor, clocks, args.seed)
+    simulation = simulate(walked, sensor, clocks, args.seed, barometer(args))
     recording = _recording(simulation, args)
     with progress(f"writing {args.output}") as update:
         write_bag(
@@ -131,40 +136,6 @@ def _simulate(args: argparse.Namespace) -> int:
         )
     _report(args, simulation)
     return 0
-
-
-def configurations(
-    args: argparse.Namespace,
-) -> tuple[WalkConfig, SensorConfig, tuple[ClockConfig, ClockConfig]]:
-    """Return what to simulate, from the options and the ``--set`` parameters.
-
-    Raises
-    ------
-    ConfigError
-        Naming the parameter, its value and what is allowed.
-    """
-    from dataclasses import asdict
-
-    from ..core.config import nested
-    from ..core.errors import ConfigError
-    from ..simulation import ClockConfig, SensorConfig, WalkConfig, grade
-
-    given = {name: getattr(args, name) for name in PLAIN}
-    walk = {name: value for name, value in given.items() if value is not None}
-    walk.update(nested(dict(setting(text) for text in args.set)))
-    groups = {name: walk.pop(name, {}) for name in GROUPS}
-    for name, values in groups.items():
-        if not isinstance(values, Mapping):
-            raise ConfigError(f"parameter '{name}' is a group; name one of its own, see --list")
-    sensor = {**asdict(grade(args.grade, args.errors)), **groups["sensor"]}
-    return (
-        WalkConfig.from_mapping({**walk, "gait": groups["gait"]}),
-        SensorConfig.from_mapping(sensor, "sensor."),
-        (
-            ClockConfig.from_mapping(groups["left_clock"], "left_clock."),
-            ClockConfig.from_mapping(groups["right_clock"], "right_clock."),
-        ),
-    )
 
 
 def _recording(simulation: Simulation, args: argparse.Namespace) -> Recording:
@@ -183,6 +154,7 @@ def _recording(simulation: Simulation, args: argparse.Namespace) -> Recording:
         right=simulation.right,
         left_truth=_thinned(simulation.left_truth, step),
         right_truth=_thinned(simulation.right_truth, step),
+        pressure=simulation.pressure,
         notes=notes,
     )
 
@@ -211,39 +183,11 @@ def _report(args: argparse.Namespace, simulation: Simulation) -> None:
         f"{facts['duration_s']:.0f} s, {facts['left_samples']} + {facts['right_samples']} samples "
         f"at {facts['rate_hz']:g} Hz, {facts['left_stances']} + {facts['right_stances']} stances"
     )
+    for worn, count in facts.get("pressure_samples", {}).items():
+        print(f"{count} samples of air pressure, worn on {worn}")
     if facts["passes"]:
         print(
             f"the feet pass {facts['passes']} times at {facts['min_distance_mean_m']:.3f} +- "
             f"{facts['min_distance_std_m']:.3f} m, kappa {facts['kappa_mean']:.2f} +- "
             f"{facts['kappa_std']:.2f}"
         )
-
-
-def _list(args: argparse.Namespace) -> int:
-    """Show routes, mountings, grades and every parameter that ``--set`` takes."""
-    from ..simulation import GRADES, MOUNTS, ROUTES, ClockConfig, Gait, SensorConfig, WalkConfig
-
-    specs = [
-        *WalkConfig.specs(),
-        *Gait.specs("gait."),
-        *SensorConfig.specs("sensor."),
-        *ClockConfig.specs("left_clock."),
-        *ClockConfig.specs("right_clock."),
-    ]
-    routes = {name: kind.description for name, kind in ROUTES.items()}
-    if args.json:
-        parameters = {
-            s.name: {"default": s.default, "unit": s.unit, "allowed": s.allowed} for s in specs
-        }
-        found = {"routes": routes, "mountings": list(MOUNTS), "grades": list(GRADES)}
-        print(json.dumps({**found, "parameters": parameters}))
-        return 0
-    print("routes:")
-    for name, text in routes.items():
-        print(f"  {name:<14}{text}")
-    print(f"mountings: {', '.join(MOUNTS)}")
-    print(f"grades: {', '.join(GRADES)} (the defaults of sensor.* below are those of consumer)")
-    print("parameters:")
-    for spec in specs:
-        print(f"  {spec.name}={spec.default}  {spec.description}; {spec.allowed}")
-    return 0

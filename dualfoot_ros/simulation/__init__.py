@@ -1,5 +1,6 @@
 """A walk generator with exact analytic truth, for tests, demonstrations and sweeps."""
 
+from .barometer import BarometerConfig
 from .clocks import ClockConfig
 from .config import MOUNTS, Gait, WalkConfig
 from .errors import SimulationError
@@ -12,6 +13,7 @@ __all__ = [
     "GRADES",
     "MOUNTS",
     "ROUTES",
+    "BarometerConfig",
     "ClockConfig",
     "Gait",
     "Route",

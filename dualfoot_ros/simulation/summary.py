@@ -21,6 +21,8 @@ def summary(simulation: Simulation) -> dict[str, Any]:
         "right_stances": len(simulation.right_stances),
         "passes": len(passes.distance),
     }
+    if simulation.pressure:
+        facts["pressure_samples"] = {w: len(each) for w, each in simulation.pressure.items()}
     if facts["passes"]:
         facts["min_distance_mean_m"] = float(passes.distance.mean())
         facts["min_distance_std_m"] = float(passes.distance.std())

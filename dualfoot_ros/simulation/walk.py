@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from ..core.series import FloatArray, ImuSeries, IntArray, PoseSeries
+from ..core.series import FloatArray, ImuSeries, IntArray, PoseSeries, PressureSeries
+from .barometer import BarometerConfig, barometers
 from .clocks import ClockConfig, Sampling, sample_times
 from .config import WalkConfig
 from .errors import SimulationError
@@ -70,6 +72,7 @@ class Simulation:
     left_stances, right_stances : (M, 2) ns of true time, flat foot to heel-off
     moment_ns : (M,) true times of least distance, of the passes in ``walk.passes``
     left_errors, right_errors : what was drawn for the sensors
+    pressure : what barometers put out, where there are any, by where they are worn
     """
 
     left: ImuSeries
@@ -84,6 +87,7 @@ class Simulation:
     left_errors: SensorErrors
     right_errors: SensorErrors
     walk: Walk
+    pressure: Mapping[str, PressureSeries] = field(default_factory=dict)
 
 
 def walk(config: WalkConfig | None = None, seed: int = 0) -> Walk:
@@ -141,11 +145,13 @@ def simulate(
     sensor: SensorConfig | None = None,
     clock: ClockConfig | tuple[ClockConfig, ClockConfig] | None = None,
     seed: int = 0,
+    barometer: BarometerConfig | None = None,
 ) -> Simulation:
     """Simulate a walk (or sense a given one) and return recordings and truth.
 
-    ``clock`` is one for both devices or one each.  Walk, sensors and clocks draw from streams of
-    their own, so changing one does not change the others.
+    ``clock`` is one for both devices or one each.  There is no pressure without ``barometer``.
+    Walk, sensors, clocks and barometers draw from streams of their own, so changing one does not
+    change the others.
 
     Raises
     ------
@@ -161,6 +167,10 @@ def simulate(
         _record(walked, index, sensor, errors[index], clocks[index], rngs) for index in range(2)
     ]
     (left, left_truth, left_arrival), (right, right_truth, right_arrival) = recorded
+    pressure: dict[str, PressureSeries] = {}
+    if barometer is not None:
+        streams = rngs["left barometer"], rngs["right barometer"]
+        pressure = barometers(walked, barometer, clocks, START_NS, streams)
     return Simulation(
         left=left,
         right=right,
@@ -174,6 +184,7 @@ def simulate(
         left_errors=errors[0],
         right_errors=errors[1],
         walk=walked,
+        pressure=pressure,
     )
 
 
@@ -207,6 +218,7 @@ def _generators(seed: int) -> dict[str, np.random.Generator]:
     names = (
         "plan", "pass", "left shoe", "right shoe", "left errors", "right errors",
         "left noise", "right noise", "left clock", "right clock",
+        "left barometer", "right barometer",
     )  # fmt: skip
     children = np.random.SeedSequence(seed).spawn(len(names))
     return {

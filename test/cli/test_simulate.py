@@ -67,7 +67,13 @@ def test_json_is_one_object_and_nothing_else(tmp_path, capsys):
 def test_the_list_names_every_route_and_parameter(capsys):
     assert main(["simulate", "--list"]) == 0
     text = capsys.readouterr().out
-    for name in (*ROUTES, "gait.kappa", "sensor.g_sensitivity", "left_clock.drift"):
+    for name in (
+        *ROUTES,
+        "gait.kappa",
+        "sensor.g_sensitivity",
+        "left_clock.drift",
+        "barometer.noise",
+    ):
         assert name in text
     assert main(["simulate", "--list", "--json"]) == 0
     assert set(json.loads(capsys.readouterr().out)["routes"]) == set(ROUTES)
@@ -86,6 +92,27 @@ def test_parameters_of_every_group_can_be_set(tmp_path):
     recording = read_bag(path)
     assert recording.right.stamp_ns[0] - recording.left.stamp_ns[0] == 5_000_000_000
     assert recording.notes["min_distance_m"] == "0.2"
+
+
+@pytest.mark.parametrize(
+    ("option", "worn"),
+    [
+        (["--barometer"], {"left", "right"}),
+        (["--barometer", "feet"], {"left", "right"}),
+        (["--barometer", "body"], {"both"}),
+        ([], set()),
+    ],
+)
+def test_air_pressure_is_written_where_a_barometer_is_worn(tmp_path, option, worn, capsys):
+    path = str(tmp_path / "walk")
+    rate = ["--set", "barometer.rate=10"] if worn else []
+    assert main(["simulate", "-o", path, *SHORT, *option, *rate]) == 0
+    said = capsys.readouterr().out
+    pressure = read_bag(path).pressure
+    assert set(pressure) == worn
+    for where, series in pressure.items():
+        assert f"{len(series)} samples of air pressure, worn on {where}" in said
+        assert np.diff(series.stamp_ns).tolist() == [100_000_000] * (len(series) - 1)
 
 
 def test_two_sensors_on_one_shoe_keep_their_distance(tmp_path):
@@ -107,6 +134,9 @@ def test_two_sensors_on_one_shoe_keep_their_distance(tmp_path):
         (["--seed", "-1"], ("--seed is -1", "from 0")),
         (["--truth-rate", "0"], ("--truth-rate is 0", "more than 0 Hz")),
         (["--one-shoe", "2"], ("separation is 2 m", "0.3 m")),
+        (["--barometer", "hat"], ("barometer.worn", "hat", "feet, body")),
+        (["--set", "barometer.noise=1"], ("barometer.noise", "add --barometer")),
+        (["--barometer", "--set", "barometer.noise=-1"], ("barometer.noise", "-1", "[0, 100] Pa")),
         (["--set", "gait.kapa=0.5"], ("gait.kapa", "kappa")),
         (["--set", "sensor.gyro_noise=much"], ("sensor.gyro_noise", "much")),
         (["--set", "gait=3"], ("gait", "group")),

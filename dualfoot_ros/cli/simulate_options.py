@@ -1,0 +1,104 @@
+"""What ``dualfoot simulate`` can be told, and the configurations that its options give."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from .settings import setting
+
+if TYPE_CHECKING:
+    from ..simulation import BarometerConfig, ClockConfig, SensorConfig, WalkConfig
+
+GROUPS = ("gait", "sensor", "left_clock", "right_clock", "barometer")
+PLAIN = ("route", "laps", "speed", "rate", "mounting", "standing", "stops", "stop_duration")
+
+
+def configurations(
+    args: argparse.Namespace,
+) -> tuple[WalkConfig, SensorConfig, tuple[ClockConfig, ClockConfig]]:
+    """Return what to simulate, from the options and the ``--set`` parameters.
+
+    Raises
+    ------
+    ConfigError
+        Naming the parameter, its value and what is allowed.
+    """
+    from dataclasses import asdict
+
+    from ..core.config import nested
+    from ..core.errors import ConfigError
+    from ..simulation import ClockConfig, SensorConfig, WalkConfig, grade
+
+    given = {name: getattr(args, name) for name in PLAIN}
+    walk = {name: value for name, value in given.items() if value is not None}
+    walk.update(nested(dict(setting(text) for text in args.set)))
+    groups = {name: walk.pop(name, {}) for name in GROUPS}
+    for name, values in groups.items():
+        if not isinstance(values, Mapping):
+            raise ConfigError(f"parameter '{name}' is a group; name one of its own, see --list")
+    sensor = {**asdict(grade(args.grade, args.errors)), **groups["sensor"]}
+    return (
+        WalkConfig.from_mapping({**walk, "gait": groups["gait"]}),
+        SensorConfig.from_mapping(sensor, "sensor."),
+        (
+            ClockConfig.from_mapping(groups["left_clock"], "left_clock."),
+            ClockConfig.from_mapping(groups["right_clock"], "right_clock."),
+        ),
+    )
+
+
+def barometer(args: argparse.Namespace) -> BarometerConfig | None:
+    """Return the barometers of ``--barometer`` and the ``--set`` parameters, or None.
+
+    Raises
+    ------
+    ConfigError
+        Naming the parameter, its value and what is allowed.
+    """
+    from ..core.config import nested
+    from ..core.errors import ConfigError
+    from ..simulation import BarometerConfig
+
+    given = nested(dict(setting(text) for text in args.set)).get("barometer", {})
+    if args.barometer is None:
+        if given:
+            name = next(iter(given))
+            raise ConfigError(f"'barometer.{name}' is set without a barometer; add --barometer")
+        return None
+    return BarometerConfig.from_mapping({"worn": args.barometer, **given}, "barometer.")
+
+
+def show_choices(as_json: bool) -> int:
+    """Show routes, mountings, grades and every parameter that ``--set`` takes."""
+    from .. import simulation as known
+
+    specs = [
+        *known.WalkConfig.specs(),
+        *known.Gait.specs("gait."),
+        *known.SensorConfig.specs("sensor."),
+        *known.ClockConfig.specs("left_clock."),
+        *known.ClockConfig.specs("right_clock."),
+        *known.BarometerConfig.specs("barometer."),
+    ]
+    routes = {name: kind.description for name, kind in known.ROUTES.items()}
+    if as_json:
+        parameters = {
+            p.name: {"default": p.default, "unit": p.unit, "allowed": p.allowed} for p in specs
+        }
+        found = {"routes": routes, "mountings": list(known.MOUNTS), "grades": list(known.GRADES)}
+        print(json.dumps({**found, "parameters": parameters}))
+        return 0
+    print("routes:")
+    for name, text in routes.items():
+        print(f"  {name:<14}{text}")
+    print(f"mountings: {', '.join(known.MOUNTS)}")
+    print(
+        f"grades: {', '.join(known.GRADES)} (the defaults of sensor.* below are those of consumer)"
+    )
+    print("parameters:")
+    for spec in specs:
+        print(f"  {spec.name}={spec.default}  {spec.description}; {spec.allowed}")
+    return 0

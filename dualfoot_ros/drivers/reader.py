@@ -46,7 +46,7 @@ class Reader:
     """Read a transport in a thread of its own and hand on what comes.
 
     ``on_bytes(data, arrival_ns)`` and ``on_state(state, reason)`` are called from that thread.
-    ``counters`` holds ``opened``, ``lost`` (links that broke), ``not_opened`` (vain tries) and
+    ``counters`` holds ``opened``, ``lost_links`` (that broke), ``not_opened`` (vain tries) and
     ``received_bytes``.
     """
 
@@ -119,7 +119,7 @@ class Reader:
                 now_s = time.monotonic()
                 self._heed_silence(now_s - last_s, data)
             except OSError as error:
-                return self._give_up("lost", error)
+                return self._give_up("lost_links", error)
             if data is None:
                 self._enter(State.ENDED, "")
                 return False

@@ -102,7 +102,9 @@ def wit(kind, content):
 def witmotion(k):
     rate, force = _device_units(k)
     ms = k * PERIOD_US // 1000
-    clock = struct.pack("<6BH", 26, 11, 22, 10, ms // 60000 % 60, ms // 1000 % 60, ms % 1000)
+    clock = struct.pack(
+        "<6BH", 26, 11, 22, ms // 3600000, ms // 60000 % 60, ms // 1000 % 60, ms % 1000
+    )
     acceleration = struct.pack("<4h", *(round(v / 16 * 32768) for v in force), 2512)
     angular = struct.pack("<4h", *(round(v / 2000 * 32768) for v in rate), 0)
     return wit(0x50, clock) + wit(0x51, acceleration) + wit(0x52, angular)

@@ -94,7 +94,7 @@ def test_a_dot_that_leaves_is_connected_to_again(radio):
     collector = Collector()
     with Source(URI, collector.take, on_state=collector.state) as source:
         assert collector.wait_for_samples(9)
-    assert source.counters["lost"] == 2
+    assert source.counters["lost_links"] == 2
     assert settle(before) == before
 
 

@@ -33,8 +33,7 @@ def decode(name, *chunks):
 
 def index_of(sample):
     """Which sample of the made-up walk this is, by its own clock."""
-    day_ms = 22 * 3_600_000
-    ticks = sample.ticks if sample.tick_ns != 1_000_000 else sample.ticks % day_ms % 600_000
+    ticks = sample.ticks if sample.tick_ns != 1_000_000 else sample.ticks % 86_400_000
     return ticks * sample.tick_ns // (PERIOD_US * 1000)
 
 

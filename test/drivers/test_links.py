@@ -58,7 +58,7 @@ def test_a_device_unplugged_and_back_twenty_times_comes_back_each_time_and_leaks
             assert collector.wait_for_samples(2 * turn + 2, seconds=2.0), f"turn {turn}"
             device.unplug()
             assert collector.wait_for_state(State.WAITING, seconds=2.0), f"turn {turn}"
-    assert source.counters["opened"] == source.counters["lost"] == 20
+    assert source.counters["opened"] == source.counters["lost_links"] == 20
     assert [sample.counter for sample in collector.samples] == [
         10 * turn + k for turn in range(20) for k in (0, 1)
     ]

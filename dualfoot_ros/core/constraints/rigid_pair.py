@@ -6,11 +6,15 @@ Chen et al. 2022: "left" is the first sensor, "right" the second.  In swing and 
     v_2 - v_1 = R_1 (omega x m)        eq. (13)
 
 with m the lever arm in the first sensor's body frame and omega the mean of what both sensors
-measure.  The paper's linear Kalman filter, eqs (16)-(22), has positions and velocities as its
-states and takes attitude from the gyros as it is; that filter is this one with no uncertainty in
-attitude and biases, which is what ``chen2022.yaml`` sets.  With that uncertainty the rows also
-carry the attitude and gyro bias of the first sensor.  (Eq. (21) of the paper misses the inverse of
-the innovation covariance.)  The paper gives m = (0.01, 0.01, 0) m right-front-up.
+measure.  A sample is the mean rate of its interval, so the rate at its end, where the velocities
+hold, is carried on from the last two samples: half an interval matters as soon as the arm is not
+tiny (a swing turns at more than 100 rad/s^2).
+
+The paper's linear Kalman filter, eqs (16)-(22), has positions and velocities as its states and
+takes attitude from the gyros as it is; that filter is this one with no uncertainty in attitude and
+biases, which is what ``chen2022.yaml`` sets.  With that uncertainty the rows also carry the
+attitude of the first sensor and the gyro biases.  (Eq. (21) of the paper misses the inverse of the
+innovation covariance.)  The paper gives m = (0.01, 0.01, 0) m right-front-up.
 """
 
 from __future__ import annotations
@@ -20,7 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..estimate import JointEstimate, Outcome, Row
+from ..estimate import JointEstimate, Outcome
 from ..parameters import Parameters, parameter
 from ..series import FloatArray
 from .method import Gait, Request
@@ -39,10 +43,10 @@ class Config(Parameters):
         maximum=0.5,
     )
     position_std: float = parameter(
-        0.002, "noise of the position difference", unit="m", minimum=1e-5, maximum=1.0
+        0.01, "noise of the position difference", unit="m", minimum=1e-5, maximum=1.0
     )
     velocity_std: float = parameter(
-        0.02, "noise of the velocity difference", unit="m/s", minimum=1e-5, maximum=1.0
+        0.1, "noise of the velocity difference", unit="m/s", minimum=1e-5, maximum=1.0
     )
     every: int = parameter(1, "epochs from one constraint to the next", minimum=1, maximum=100)
 
@@ -63,21 +67,32 @@ class Method(Base):
         if gait.now % self.config.every:
             return ()
         now = gait.now
-        return (Request(now, False, lambda estimate: self.apply(estimate, gait, now)),)
+        ahead = [self._ahead(gait, sensor) for sensor in range(2)]
+        return (Request(now, False, lambda estimate: self.apply(estimate, gait, now, ahead)),)
 
-    def apply(self, estimate: JointEstimate, gait: Gait, epoch: int) -> Outcome:
-        """Update with eq. (13), then with eq. (12)."""
-        rate = gait.sample(0, epoch)[3:]
+    def _ahead(self, gait: Gait, sensor: int) -> FloatArray:
+        """Return by how much the rate (3,) changes from the newest sample's middle to its end."""
+        if gait.now < 1:
+            return np.zeros(3)
+        change: FloatArray = gait.sample(sensor, gait.now) - gait.sample(sensor, gait.now - 1)
+        return 0.5 * change[3:]
+
+    def apply(
+        self, estimate: JointEstimate, gait: Gait, epoch: int, ahead: Sequence[FloatArray]
+    ) -> Outcome:
+        """Update with eq. (13), then with eq. (12); ``ahead`` is added to both rates."""
+        sensors = (0, 1) if self._same_axes(estimate) else (0,)
+        share = 1.0 / len(sensors)
+        rate = share * np.sum([gait.sample(s, epoch)[3:] + ahead[s] for s in sensors], axis=0)
         rotation = estimate.rotation(0)
-        if self._same_axes(estimate):
-            rate = 0.5 * (rate + gait.sample(1, epoch)[3:])
-        moved = np.cross(rate, self._arm)
-        velocity = estimate.velocity(1) - estimate.velocity(0) - rotation @ moved
-        rows = difference_rows(3, rotation @ moved, rotation @ skew(self._arm))
+        moved = rotation @ np.cross(rate, self._arm)
+        velocity = estimate.velocity(1) - estimate.velocity(0) - moved
+        rows = difference_rows(3, moved)
+        add_bias(rows, share * rotation @ skew(self._arm), sensors)
         estimate.update(rows, velocity.tolist(), [self.config.velocity_std**2] * 3)
         arm = estimate.rotation(0) @ self._arm
         position = estimate.position(1) - estimate.position(0) - arm
-        rows = difference_rows(0, arm, None)
+        rows = difference_rows(0, arm)
         s, nis = estimate.update(rows, position.tolist(), [self.config.position_std**2] * 3)
         return Outcome(position, s, nis, True, {"velocity_innovation": velocity.tolist()})
 
@@ -87,21 +102,26 @@ class Method(Base):
         return float(np.trace(relative)) > 3.0 - 0.01
 
 
-def difference_rows(state: int, vector: FloatArray, bias: FloatArray | None) -> list[Row]:
-    """Return the rows of (second minus first) position or velocity minus R_1 times something.
+def difference_rows(state: int, vector: FloatArray) -> list[dict[int, float]]:
+    """Return the rows of (second minus first) position or velocity minus ``vector``.
 
-    ``state`` is 0 for position, 3 for velocity, ``vector`` (3,) the rotated thing, whose attitude
-    error is [vector x] phi, ``bias`` (3, 3) its derivative by the first sensor's gyro bias.
+    ``state`` is 0 for position, 3 for velocity, ``vector`` (3,) what the first sensor's attitude
+    turned, whose error is [vector x] phi.
     """
     attitude = -skew(vector)
-    rows: list[Row] = []
+    rows = []
     for i in range(3):
         row = {15 + state + i: 1.0, state + i: -1.0}
         row.update({6 + j: float(attitude[i, j]) for j in range(3)})
-        if bias is not None:
-            row.update({9 + j: float(bias[i, j]) for j in range(3)})
         rows.append(row)
     return rows
+
+
+def add_bias(rows: list[dict[int, float]], slope: FloatArray, sensors: Sequence[int]) -> None:
+    """Add the derivative (3, 3) by the gyro bias of each sensor whose rate was used."""
+    for i, row in enumerate(rows):
+        for sensor in sensors:
+            row.update({15 * sensor + 9 + j: float(slope[i, j]) for j in range(3)})
 
 
 def skew(v: FloatArray) -> FloatArray:

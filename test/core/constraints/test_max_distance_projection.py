@@ -76,7 +76,7 @@ def test_only_the_one_foot_that_moves_is_pulled(still, pulled):
     requests = Method(Config(bound=0.9)).on_epoch(gait)
     assert len(requests) == (pulled is not None)
     if requests:
-        space, estimate = apart(4, 1.4)
+        _, estimate = apart(4, 1.4)
         kept = estimate.position(1 - pulled)
         requests[0].apply(estimate)
         assert np.array_equal(estimate.position(1 - pulled), kept)

@@ -45,7 +45,7 @@ def test_it_is_the_dense_update_with_the_gradient_of_the_distance(seed, distance
 
 
 def test_one_linearisation_of_a_hard_constraint_is_the_first_iterate_of_the_paper():
-    """Eq. (22) starts from A_0 = 2 r', the same row up to its length; the constraint is not met."""
+    """Eq. (22) starts from A_0 = 2 r', the same row up to length; the constraint is not met."""
     found = []
     for module, options in ((mdmd_ekf, {}), (idc, {"solver": "iterative", "iterations": 1})):
         space, estimate = apart(11, 0.6)
@@ -59,7 +59,7 @@ def test_one_linearisation_of_a_hard_constraint_is_the_first_iterate_of_the_pape
 
 
 def test_a_hard_observation_is_met_when_the_separation_alone_is_uncertain_along_itself():
-    space, estimate = apart(3, 0.5)
+    _, estimate = apart(3, 0.5)
     u = separation(estimate) / 0.5
     for other in np.linalg.svd(u[None])[2][1:]:
         estimate.update([dict(enumerate(other)) | dict(enumerate(-other, 15))], [0.0], [0.0])

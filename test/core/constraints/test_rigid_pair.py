@@ -1,4 +1,4 @@
-"""Two sensors on one shoe: the linear Kalman filter of Chen et al. 2022, and what it is good for."""
+"""Two sensors on one shoe: the linear Kalman filter of Chen et al. 2022, and its use."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def white_noise() -> SensorConfig:
     return SensorConfig.from_mapping({**zero, "gyro_noise": 1e-3, "accelerometer_noise": 0.01})
 
 
-# --- the paper's filter, from eqs (14)-(22) alone -------------------------------------------------
+# --- the filter of the paper, from eqs (14)-(22) alone ---
 
 I3, O3 = np.eye(3), np.zeros((3, 3))
 
@@ -63,7 +63,7 @@ class LinearFilter:
         self.stds = [pair.velocity_std] * 3 + [pair.position_std] * 3
 
     def predict(self, u1, u2, dt: float) -> None:
-        """x = F x + B u, eqs (14), (17), and P^- of eq. (21); ``u`` (3,) m/s^2."""
+        """Predict x = F x + B u, eqs (14), (17), and P^- of eq. (21); ``u`` (3,) m/s^2."""
         F = np.eye(12)
         F[:6, 6:] = dt * np.eye(6)
         B = np.vstack([0.5 * dt**2 * np.eye(6), dt * np.eye(6)])
@@ -137,7 +137,7 @@ def test_with_known_attitude_it_is_the_papers_linear_filter():
     assert np.abs((found - ours.P) / np.outer(stds, stds)).max() < 1e-6
 
 
-# --- the rows, where attitude and bias are uncertain ----------------------------------------------
+# --- the rows, where attitude and bias are uncertain ---
 
 
 def innovations(space, gait, method) -> np.ndarray:
@@ -151,7 +151,7 @@ def innovations(space, gait, method) -> np.ndarray:
 
 @pytest.mark.parametrize("same_axes", (True, False))
 def test_the_rows_are_the_derivatives_of_the_innovations(same_axes):
-    """Numerically, for every error state: one at a time has variance, so the gain shows its row."""
+    """Numerically; one error state at a time has variance, so that the gain shows its row."""
     method = Method(Config(lever_arm=(0.3, -0.2, 0.1)))
     rng, step = np.random.default_rng(2), 1e-6
     space = random_workspace(2)
@@ -199,7 +199,7 @@ def test_sensors_with_other_axes_are_told_apart():
     assert not Method(Config())._same_axes(estimate)
 
 
-# --- recordings ----------------------------------------------------------------------------------
+# --- recordings ---
 
 
 def run(made, arm, method: str):

@@ -123,7 +123,7 @@ class DeviceClock:
         self._base_ns = first.arrival_ns - first.device_ns
         self._envelope = LowerEnvelope(config.bin, config.bins, 1e-6 * config.skew_scale)
         self._suspects = Suspects()
-        self._late_since: int | None = None
+        self._late_since: Arrival | None = None
         self._least_late_s = 0.0
         self._tracking = False
         for device_ns, arrival_ns in arrivals:
@@ -141,7 +141,7 @@ class DeviceClock:
         self._suspects.contradict()
         self.counters["late"] += device_ns < self._newest_ns
         fitted = self._learn(device_ns, arrival_ns)
-        if self._all_late(device_ns, 1e-9 * above_ns):
+        if self._all_late(arrival, 1e-9 * above_ns):
             self._jump_up()
         self._steer(device_ns, fitted)
         return True
@@ -171,20 +171,26 @@ class DeviceClock:
         self.epoch += 1
         self._begin(arrivals)
 
-    def _all_late(self, device_ns: int, above_s: float) -> bool:
-        """Tell whether every arrival of the last seconds was later than chance allows."""
+    def _all_late(self, arrival: Arrival, above_s: float) -> bool:
+        """Tell whether every arrival of the last seconds was later than chance allows.
+
+        The seconds are counted on both clocks: what a long stall held back arrives at once.
+        """
         if above_s <= self.config.jump:
             self._late_since = None
             return False
         if self._late_since is None:
-            self._late_since, self._least_late_s = device_ns, above_s
+            self._late_since, self._least_late_s = arrival, above_s
         self._least_late_s = min(self._least_late_s, above_s)
-        elapsed_s = 1e-9 * (device_ns - self._late_since)
+        since = self._late_since
+        elapsed_ns = min(arrival[0] - since[0], arrival[1] - since[1])
+        elapsed_s = 1e-9 * elapsed_ns
         odds = elapsed_s / self.config.bin * self._least_late_s / self._line.scale_s
         return elapsed_s >= self.config.jump_after and odds > DOUBT
 
     def _jump_up(self) -> None:
-        since_s = self._seconds(self._late_since or 0)
+        assert self._late_since is not None
+        since_s = self._seconds(self._late_since.device_ns)
         late = [point for point in self._envelope.points if point[0] >= since_s]
         arrivals = [
             Arrival(device := self._origin_ns + round(1e9 * t), device + self._base_ns + round(y))

@@ -94,11 +94,9 @@ def damaged(dice: random.Random, good: list[bytes]) -> bytes:
 def feed(decoder: Decoder, dice: random.Random, data: bytes) -> list[Sample]:
     """Feed in pieces, or whole where each call is a message; look at the buffer each time."""
     samples: list[Sample] = []
-    at = 0
-    while at < len(data):
-        size = len(data) if decoder.message_oriented else dice.choice((1, 3, 16, 64, 512))
+    size = 4096 if decoder.message_oriented else dice.choice((1, 5, 16, 37, 64, 300, 4096))
+    for at in range(0, len(data), size):
         samples += decoder.feed(data[at : at + size], 7)
-        at += size
         if decoder.buffered > decoder.max_buffer:
             raise BrokenPromiseError(
                 f"buffer of {decoder.buffered} bytes, {decoder.max_buffer} allowed"

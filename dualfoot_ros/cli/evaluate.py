@@ -23,6 +23,7 @@ examples:
   dualfoot evaluate walk -o report                  also TUM files, plots and metrics.json
   dualfoot evaluate walk --method zupt --json       one JSON object on standard output
   dualfoot evaluate walk --set idc.distance=0.2     another value of one parameter
+  dualfoot evaluate walk --set aids.barometer=true  height from the air pressure in the bag
   dualfoot evaluate walk --reference markers.yaml   floor markers that are not in the bag's folder
   dualfoot evaluate walk --align umeyama4           best fit over the whole walk
 """

@@ -30,7 +30,7 @@ from .feet import FeetReport, feet_report
 from .frames import Align, YawTransform
 from .heading import HeadingErrors, heading_errors
 from .markers import MarkerErrors, marker_errors
-from .notes import marker_notes, refusal_notes
+from .notes import marker_notes, pressure_notes, refusal_notes
 from .plain import plain
 
 
@@ -159,7 +159,11 @@ def evaluate(
         closure=closure(trajectory.left, trajectory.right, length),
         closed_loop=reference is not None and reference.closed_loop,
         feet=_feet(moved, truth),
-        notes=(*refusal_notes(trajectory.counters), *marker_notes(marker_report)),
+        notes=(
+            *refusal_notes(trajectory.counters),
+            *pressure_notes(trajectory.counters),
+            *marker_notes(marker_report),
+        ),
     )
 
 

@@ -13,6 +13,10 @@ REFUSED = {
     "out_of_order": "a stamp older than the one before",
     "in_gap": "a gap in the samples",
 }
+PRESSURE_REFUSED = {
+    "pressure_out_of_range": "no air pressure in Pa",
+    "pressure_out_of_order": "a stamp that is not later than the one before",
+}
 
 
 def refusal_notes(counters: Mapping[str, int]) -> Iterator[str]:
@@ -29,6 +33,30 @@ def refusal_notes(counters: Mapping[str, int]) -> Iterator[str]:
             yield f"{_many(count, unit)}{whose} left out: {REFUSED[what]}"
         elif count and what in ("gap", "gaps"):
             yield f"{_many(count, 'gap')} in the samples{whose}"
+
+
+def pressure_notes(counters: Mapping[str, int]) -> Iterator[str]:
+    """Say whether air pressure was there, and whether the barometer aid could use it."""
+    unused, used = counters.get("pressure_unused", 0), counters.get("pressures", 0)
+    without = counters.get("stances_without_pressure", 0)
+    if unused:
+        yield (
+            f"{_many(unused, 'sample')} of air pressure not used; with aids.barometer=true they "
+            "give the height"
+        )
+    if without and not used:
+        yield (
+            "aids.barometer is on but there is no air pressure, so it did nothing; record "
+            "sensor_msgs/FluidPressure on /left/pressure and /right/pressure, or on /pressure"
+        )
+    elif without:
+        yield (
+            f"{_many(without, 'stance')} had too few samples of air pressure; check that it is "
+            "stamped by the clock of the feet, its rate, and aids.barometer_samples"
+        )
+    for name, why in PRESSURE_REFUSED.items():
+        if counters.get(name, 0):
+            yield f"{_many(counters[name], 'sample')} of air pressure left out: {why}"
 
 
 def marker_notes(reports: Mapping[str, MarkerErrors]) -> Iterator[str]:

@@ -16,7 +16,8 @@ from .errors import EvaluationError
 def track(recording: Recording, config: TrackerConfig | None = None) -> Trajectory:
     """Bring both sensors of a recording on one time grid and track them.
 
-    The counters of the time alignment join those of the tracker under ``sync.``.
+    Air pressure goes along, for the barometer aid.  The counters of the time alignment join those
+    of the tracker under ``sync.``.
 
     Raises
     ------
@@ -33,7 +34,7 @@ def track(recording: Recording, config: TrackerConfig | None = None) -> Trajecto
             f"the feet share no time (overlap {report.overlap_s:.1f} s), so there are no pairs of "
             "samples; were both recorded together, and are their clocks synchronised?"
         )
-    found = DualFootTracker(config).run(left, right)
+    found = DualFootTracker(config).run(left, right, recording.pressure)
     _check_walked(found, left)
     prepared = {f"sync.{name}": count for name, count in report.counters.items()}
     return replace(found, counters={**prepared, **found.counters})

@@ -52,6 +52,7 @@ def _truth(run: Evaluation) -> Iterator[Row]:
     sides = (report.left, report.right, report.midpoint)
     names = {
         "RMSE (m)": "rmse_m",
+        "height RMSE (m)": "rmse_vertical_m",
         "largest error (m)": "max_m",
         "end error (m)": "end_m",
         "end error (% of distance)": "end_percent",

@@ -8,7 +8,7 @@ import pytest
 
 from dualfoot_ros.cli.main import main
 from dualfoot_ros.recording import Recording, Reference, write_bag
-from dualfoot_ros.simulation import WalkConfig, simulate
+from dualfoot_ros.simulation import BarometerConfig, WalkConfig, simulate
 
 
 @pytest.fixture(scope="module")
@@ -125,3 +125,25 @@ def test_the_command_as_a_process_gives_json_on_standard_output_only(bag):
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert json.loads(done.stdout)["method"] == "zupt"
     assert done.stderr == ""
+
+
+def test_the_barometer_can_be_switched_on_and_its_height_error_is_in_the_table(tmp_path, capsys):
+    made = simulate(WalkConfig(route="stairs"), seed=0, barometer=BarometerConfig(worn="body"))
+    truth = made.left_truth, made.right_truth
+    bag = str(
+        write_bag(
+            tmp_path / "climb", Recording(made.left, made.right, *truth, pressure=made.pressure)
+        )
+    )
+    command = ["evaluate", bag, "--method", "step_length", "--json"]
+    figures = []
+    for switch in ("false", "true"):
+        assert main([*command, "--set", f"aids.barometer={switch}"]) == 0
+        figures.append(json.loads(capsys.readouterr().out))
+    off, on = (f["truth"]["midpoint"]["rmse_vertical_m"] for f in figures)
+    assert on < 0.75 * off
+    assert figures[1]["counters"]["pressures"] == figures[0]["counters"]["pressure_unused"] > 1000
+    assert main([*command[:-1]]) == 0
+    table = capsys.readouterr().out
+    assert "height RMSE (m)" in table
+    assert "with aids.barometer=true they give the height" in " ".join(table.split())

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import TrackerConfig
-from dualfoot_ros.core.series import ImuSeries
+from dualfoot_ros.core.series import ImuSeries, PressureSeries
 from dualfoot_ros.evaluation import EvaluationError, evaluate, track, truth_of
 from dualfoot_ros.recording.recording import Recording
-from dualfoot_ros.simulation import WalkConfig, grade, simulate
+from dualfoot_ros.simulation import BarometerConfig, WalkConfig, grade, simulate
 
 
 @pytest.fixture(scope="module")
@@ -64,3 +64,52 @@ def test_a_walk_that_only_ends_in_a_standstill_is_refused_rather_than_reported_e
 
 def test_truth_of_one_foot_is_no_truth(walked):
     assert truth_of(replace(walked, left_truth=None)) is None
+
+
+@pytest.fixture(scope="module")
+def climbed() -> Recording:
+    """Return a simulated walk on stairs with truth and a barometer on each foot."""
+    made = simulate(WalkConfig(route="stairs"), seed=0, barometer=BarometerConfig())
+    truth = made.left_truth, made.right_truth
+    return Recording(made.left, made.right, *truth, pressure=made.pressure)
+
+
+def height_rmse(recording: Recording, **settings) -> tuple[float, list[str]]:
+    """Return the height error of the left foot, m, and the notes."""
+    given = {"method": "step_length", **settings}
+    found = track(recording, TrackerConfig.from_mapping(given))
+    report = evaluate(found, truth=truth_of(recording))
+    return report.truth_report.left.rmse_vertical_m, list(report.notes)
+
+
+def test_the_pressure_of_a_recording_betters_the_height_and_is_offered_where_it_is_not_used(
+    climbed,
+):
+    without, notes = height_rmse(climbed)
+    assert notes == [
+        f"{sum(map(len, climbed.pressure.values()))} samples of air pressure not used; with "
+        "aids.barometer=true they give the height"
+    ]
+    better, notes = height_rmse(climbed, **{"aids.barometer": True})
+    assert notes == []
+    assert better < 0.75 * without
+
+
+def test_a_barometer_that_is_on_without_pressure_is_told_what_to_record(climbed):
+    bare = replace(climbed, pressure={})
+    without, _ = height_rmse(bare)
+    same, notes = height_rmse(bare, **{"aids.barometer": True})
+    assert same == without
+    assert len(notes) == 1
+    assert "aids.barometer is on but there is no air pressure" in notes[0]
+    assert "sensor_msgs/FluidPressure on /left/pressure" in notes[0]
+
+
+def test_pressure_on_another_clock_or_in_other_units_is_noted(climbed):
+    left = climbed.pressure["left"]
+    elsewhere = {"left": PressureSeries(left.stamp_ns - 10**15, left.pressure)}
+    _, notes = height_rmse(replace(climbed, pressure=elsewhere), **{"aids.barometer": True})
+    assert any("stances had too few samples of air pressure; check that it" in n for n in notes)
+    hecto = {"left": PressureSeries(left.stamp_ns, left.pressure / 100.0)}
+    _, notes = height_rmse(replace(climbed, pressure=hecto), **{"aids.barometer": True})
+    assert f"{len(left)} samples of air pressure left out: no air pressure in Pa" in notes

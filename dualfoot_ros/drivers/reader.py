@@ -99,11 +99,10 @@ class Reader:
     def _session(self) -> bool:
         """Open, read until the link is lost, close; return whether to try again."""
         try:
-            self._transport.open()
-        except OSError as error:
-            self._transport.close()
-            return self._give_up("not_opened", error)
-        try:
+            try:
+                self._transport.open()
+            except OSError as error:
+                return self._give_up("not_opened", error)
             self.counters["opened"] += 1
             self._enter(State.CONNECTED, "")
             return self._pump()

@@ -127,6 +127,16 @@ def test_a_file_that_cannot_be_read_is_not_tried_again(session):
     assert said[-1] == (State.FAILED, "OSError: no right to read")
 
 
+def test_a_transport_is_closed_even_when_opening_it_fails_in_an_unheard_of_way():
+    script = Script([None])
+    script.sessions = None
+    script.open = lambda: script.log.append("open") or script.sessions[0]  # a TypeError
+    reader, _, _ = run(script)
+    assert script.log == ["open", "close"]
+    assert reader.state is State.FAILED
+    assert isinstance(reader.failure, TypeError)
+
+
 def test_a_reader_that_never_ran_can_be_stopped():
     reader = Reader(Script(), lambda data, arrival_ns: None)
     reader.stop()

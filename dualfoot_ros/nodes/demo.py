@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import sys
-from collections.abc import Sequence
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -105,13 +108,29 @@ def _live(bag: Path, configs: dict[str, TrackerConfig], console: Console) -> dic
     context = rclpy.Context()
     rclpy.init(args=["--ros-args", "--log-level", "warn"], context=context)
     try:
-        with Progress(console=console, transient=True) as progress:
-            task = progress.add_task("replay -> time_sync -> fusion", total=1.0)
-            return run_live(
-                bag, configs, context, lambda share: progress.update(task, completed=share)
-            )
+        with Progress(console=console, transient=True) as bar, _patient_ctrl_c() as asked:
+            console.print(f"replaying {bag} through the nodes: {', '.join(configs)}")
+            task = bar.add_task("replay -> time_sync -> fusion", total=1.0)
+
+            def progress(share: float) -> None:
+                bar.update(task, completed=share)
+                if asked.is_set():
+                    raise KeyboardInterrupt
+
+            return run_live(bag, configs, context, progress)
     finally:
         rclpy.try_shutdown(context=context)
+
+
+@contextmanager
+def _patient_ctrl_c() -> Iterator[threading.Event]:
+    """Yield an event that Ctrl-C sets: within rclpy's own code an exception would be mangled."""
+    asked = threading.Event()
+    before = signal.signal(signal.SIGINT, lambda *_: asked.set())
+    try:
+        yield asked
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _compare(

@@ -30,6 +30,7 @@ from .time_sync import TimeSyncNode
 
 AHEAD = 200  # samples that may be under way between two nodes
 PATIENCE_S = 5.0  # without progress: what is missing was lost
+SPINS = 50  # between two looks at the progress
 Progress = Callable[[float], None]
 
 
@@ -123,7 +124,7 @@ class LiveGraph:
         state: tuple[int, ...] = ()
         since = time.monotonic()
         while time.monotonic() - since < PATIENCE_S:
-            for _ in range(500):
+            for _ in range(SPINS):
                 executor.spin_once(timeout_sec=0.05)
                 if self.replay.done.done() and not any(self._under_way()):
                     return

@@ -1,4 +1,5 @@
 import json
+import signal
 from dataclasses import replace
 
 import pytest
@@ -29,6 +30,15 @@ def test_the_demonstration_prints_one_table_and_the_paths_of_its_plots(
     assert all(str(path) in running.output for path in plots)
     metrics = json.loads((tmp_path / "out" / "metrics.json").read_text())
     assert set(metrics["runs"]) == {"zupt", "idc"}
+
+
+def test_ctrl_c_ends_it_with_130_and_nothing_written(program, walk_bag, tmp_path):
+    running = program("demo", walk_bag, "-o", tmp_path / "out", "--methods", "zupt")
+    running.wait_for("through the nodes: zupt")
+    running.send(signal.SIGINT)
+    assert running.code() == 130
+    assert "Traceback" not in running.output
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ BELOW = {
     "recording": {"core", "timing", TOP},
     "simulation": {"core", "timing", TOP},
     "evaluation": {"core", "timing", TOP, "recording", "simulation"},
+    "calibration": {"core", "timing", TOP, "recording", "evaluation"},
 }
 ALL = {"nodes", "cli"}
 ROS = {

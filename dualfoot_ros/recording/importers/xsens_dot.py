@@ -57,6 +57,19 @@ def load(options: ImportOptions) -> Recording:
     )
 
 
+def read_sensor(path: Path, orientation: str = axes.IDENTITY) -> ImuSeries:
+    """Return the samples of one sensor, of whatever foot, as ``axes.parse`` turns them.
+
+    Raises
+    ------
+    RecordingError
+        When the file is no such export.
+    OSError
+        When it cannot be read.
+    """
+    return _read(path, axes.parse(orientation), 0.0)[0]
+
+
 def _both(left: dict[str, str], right: dict[str, str], key: str) -> str:
     return f"left {left.get(key, 'unknown')}, right {right.get(key, 'unknown')}"
 

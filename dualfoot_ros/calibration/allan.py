@@ -1,0 +1,138 @@
+"""The Allan deviation of a standstill, and the noise parameters that its slopes tell.
+
+Overlapping estimator, eq. (11) of Riley and Howe, Handbook of Frequency Stability Analysis (NIST
+SP 1065, 2008): with theta the integral of the signal, n samples of tau_0, tau = m tau_0,
+
+    sigma^2(tau) = 1 / (2 tau^2 (n - 2m + 1)) sum_k (theta_k+2m - 2 theta_k+m + theta_k)^2.
+
+The slopes are those of IEEE Std 952-1997, annex C: white noise of density N gives N / sqrt(tau),
+bias instability B a floor of B sqrt(2 ln 2 / pi), a random walk K of the bias K sqrt(tau / 3).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.series import FloatArray
+from .errors import CalibrationError
+
+PER_OCTAVE = 4
+SHARE = 1.0 / 9.0  # of the record, the longest time told; its deviation is known to 25 %
+SLOPE_ERROR = 0.15  # a slope counts as white noise or random walk within this
+FLOOR = math.sqrt(2.0 * math.log(2.0) / math.pi)
+RISE_SIGMAS = 3.0  # the curve must have risen by this after its minimum to show a floor
+LEAST_SAMPLES = 90
+
+
+@dataclass(frozen=True)
+class AllanCurve:
+    """The Allan deviation of one or more axes.
+
+    Attributes
+    ----------
+    tau : (T,) s
+    deviation : (T, A) in the unit of the signal
+    relative_error : (T,) standard deviation of the deviation, as a share of it
+    duration_s : length of the record
+    """
+
+    tau: FloatArray
+    deviation: FloatArray
+    relative_error: FloatArray
+    duration_s: float
+
+
+def overlapping(signal: FloatArray, interval_s: float, spans: Sequence[int]) -> FloatArray:
+    """Return the overlapping Allan deviation (T,) of (n,) samples over ``spans`` (samples)."""
+    theta = np.concatenate(([0.0], np.cumsum(signal - np.mean(signal)))) * interval_s
+    found = []
+    for m in spans:
+        second = theta[2 * m :] - 2.0 * theta[m:-m] + theta[: -2 * m]
+        tau = m * interval_s
+        found.append(math.sqrt(float(np.mean(second**2)) / 2.0) / tau)
+    return np.array(found)
+
+
+def allan_curve(signals: FloatArray, interval_s: float) -> AllanCurve:
+    """Return the curve of (n, A) samples that are ``interval_s`` apart.
+
+    Raises
+    ------
+    CalibrationError
+        When there are too few samples for any.
+    """
+    count = len(signals)
+    if count < LEAST_SAMPLES:
+        raise CalibrationError(
+            f"{count} samples are too few for an Allan deviation; needed are {LEAST_SAMPLES}"
+        )
+    octaves = math.log2(count * SHARE)
+    exponents = np.arange(math.floor(octaves * PER_OCTAVE) + 1) / PER_OCTAVE
+    spans = np.unique(np.floor(2.0**exponents + 0.5).astype(int))
+    spans = spans[spans <= count * SHARE]
+    deviation = np.column_stack([overlapping(s, interval_s, spans.tolist()) for s in signals.T])
+    error = 1.0 / np.sqrt(2.0 * (count / spans - 1.0))
+    return AllanCurve(spans * interval_s, deviation, error, count * interval_s)
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """What one axis' curve tells; None where the curve does not show it.
+
+    Attributes
+    ----------
+    white : noise density N, unit sqrt(s)
+    floor : bias instability B, unit; ``floor_tau`` s is where
+    walk : random walk K of the bias, unit / sqrt(s)
+    lowest : the least deviation seen: no floor is above lowest / 0.664
+    """
+
+    white: float | None
+    floor: float | None
+    floor_tau: float | None
+    walk: float | None
+    lowest: float
+
+
+def slopes_of(curve: AllanCurve, axis: int) -> Slopes:
+    """Read the slopes of one axis off its curve."""
+    tau, deviation = curve.tau, curve.deviation[:, axis]
+    if not (deviation > 0.0).all():
+        return Slopes(None, None, None, None, float(deviation.min()))
+    at = int(np.argmin(deviation))
+    error = curve.relative_error
+    risen = deviation[at:] - deviation[at] - RISE_SIGMAS * error[at:] * deviation[at:]
+    floor = bool(at > 0 and (risen > 0.0).any())
+    slope = _local_slope(tau, deviation)
+    falling = (np.abs(slope + 0.5) < SLOPE_ERROR) & (np.arange(len(tau)) <= at)
+    rising = (np.abs(slope - 0.5) < SLOPE_ERROR) & (np.arange(len(tau)) > at)
+    white = _mean_log(deviation * np.sqrt(tau), falling, error)
+    walk = _mean_log(deviation / np.sqrt(tau / 3.0), rising, error)
+    return Slopes(
+        white=white,
+        floor=float(deviation[at]) / FLOOR if floor else None,
+        floor_tau=float(tau[at]) if floor else None,
+        walk=walk if floor else None,
+        lowest=float(deviation[at]),
+    )
+
+
+def _local_slope(tau: FloatArray, deviation: FloatArray) -> FloatArray:
+    """Return the slope (T,) of the log-log curve, fitted over an octave on each side."""
+    x, y = np.log(tau), np.log(deviation)
+    slope = np.empty(len(tau))
+    for k in range(len(tau)):
+        near = np.abs(x - x[k]) <= math.log(2.0) * 1.01
+        slope[k] = np.polyfit(x[near], y[near], 1)[0] if near.sum() > 1 else np.nan
+    return slope
+
+
+def _mean_log(level: FloatArray, use: np.ndarray, error: FloatArray) -> float | None:
+    """Return the weighted geometric mean of the levels in use, None for fewer than three."""
+    if use.sum() < 3:
+        return None
+    return float(np.exp(np.average(np.log(level[use]), weights=error[use] ** -2)))

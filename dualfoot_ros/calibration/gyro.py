@@ -1,0 +1,135 @@
+"""Bias of a gyro from a standstill, and the noise of both triads from a long one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.series import FloatArray, ImuSeries
+from ..timing import clean
+from .allan import AllanCurve, Slopes, allan_curve, slopes_of
+from .errors import CalibrationError
+from .sensor import TRIADS, Triad
+from .static import Static, no_standstill, still_spans
+
+LARGEST_BIAS = 0.15  # rad/s; more is a rotation (alignment.max_rate)
+UNITS = {"gyro": "rad/s", "accelerometer": "m/s^2"}
+
+
+@dataclass(frozen=True)
+class GyroFit:
+    """Bias of the gyro, and what its noise and that of the accelerometer are.
+
+    Attributes
+    ----------
+    bias, bias_std : (3,) rad/s, and how far the mean of this standstill may be off
+    standstill : the samples it comes from
+    curves : triad -> Allan deviation of its axes
+    slopes : triad -> what the curve of each axis tells
+    """
+
+    bias: FloatArray
+    bias_std: FloatArray
+    standstill: ImuSeries
+    curves: Mapping[str, AllanCurve]
+    slopes: Mapping[str, tuple[Slopes, ...]]
+
+    def triad(self) -> Triad:
+        """Return what goes into the calibration file."""
+        about = {
+            "bias_std": [round(float(v), 9) for v in self.bias_std],
+            "standstill": round(self.standstill.duration_s, 3),
+        }
+        return Triad(self.bias, np.eye(3), about)
+
+    def noise(self, bias_time_s: float) -> dict[str, float]:
+        """Return the parameters of the filter that every axis tells, those of the worst one.
+
+        ``noise.*_bias`` drives a first-order Gauss-Markov bias of correlation time
+        ``bias_time_s``: with the random walk K where the curve shows one, otherwise with what
+        holds the deviation of that bias at the instability B, q = B sqrt(2 / bias_time).
+        """
+        found = {}
+        for triad, axes in self.slopes.items():
+            named = {
+                f"noise.{triad}": [s.white for s in axes],
+                f"noise.{triad}_bias": [driving_noise(s, bias_time_s) for s in axes],
+            }
+            for name, values in named.items():
+                told = [v for v in values if v is not None]
+                if len(told) == len(axes):
+                    found[name] = max(told)
+        return found
+
+    def unseen(self) -> Iterator[str]:
+        """Say what the standstill is too short to show."""
+        for triad, axes in self.slopes.items():
+            curve = self.curves[triad]
+            end = f"up to {curve.tau[-1]:.3g} s, a ninth of the {curve.duration_s:.3g} s"
+            if any(s.white is None for s in axes):
+                yield (
+                    f"{triad}: no white noise (slope -1/2) is seen on every axis {end}; use a "
+                    "longer standstill, and switch smoothing filters of the sensor off"
+                )
+            if any(s.floor is None for s in axes):
+                least = max(s.lowest for s in axes)
+                yield (
+                    f"{triad}: no floor is seen {end}, so the standstill is too short for "
+                    f"the bias instability (it is below {least:.3g} {UNITS[triad]}) and the "
+                    "driving noise of the bias; record some hours"
+                )
+
+
+def driving_noise(slopes: Slopes, bias_time_s: float) -> float | None:
+    """Return what drives the bias of one axis, or None where the curve does not show it."""
+    if slopes.walk is not None:
+        return slopes.walk
+    return None if slopes.floor is None else slopes.floor * math.sqrt(2.0 / bias_time_s)
+
+
+def fit_gyro(recordings: Sequence[tuple[str, ImuSeries]], config: Static | None = None) -> GyroFit:
+    """Fit on the longest standstill of the named recordings.
+
+    Raises
+    ------
+    CalibrationError
+        When none has a standstill, or the sensor turned steadily in it.
+    """
+    config = config or Static()
+    name, still = _longest(recordings, config)
+    bias = still.angular_rate.mean(axis=0)
+    worst = int(np.argmax(np.abs(bias)))
+    if abs(bias[worst]) > LARGEST_BIAS:
+        raise CalibrationError(
+            f"'{name}': the mean angular rate of {'xyz'[worst]} is {bias[worst]:.3g} rad/s; "
+            f"allowed is {LARGEST_BIAS:g}, so the sensor turned, or the unit is deg/s"
+        )
+    interval = still.duration_s / (len(still) - 1)
+    values = {"accelerometer": still.specific_force, "gyro": still.angular_rate}
+    curves = {triad: allan_curve(values[triad], interval) for triad in reversed(TRIADS)}
+    slopes = {t: tuple(slopes_of(curve, axis) for axis in range(3)) for t, curve in curves.items()}
+    return GyroFit(bias, _bias_std(curves["gyro"], slopes["gyro"]), still, curves, slopes)
+
+
+def _longest(recordings: Sequence[tuple[str, ImuSeries]], config: Static) -> tuple[str, ImuSeries]:
+    found = []
+    for name, series in recordings:
+        good = clean(series).series
+        found += [(name, good[span]) for span in still_spans(good, config)]
+    if not found:
+        name, series = recordings[0]
+        raise CalibrationError(no_standstill(clean(series).series, name, config))
+    return max(found, key=lambda named: named[1].duration_s)
+
+
+def _bias_std(curve: AllanCurve, slopes: Sequence[Slopes]) -> FloatArray:
+    """Return how far the mean over the whole standstill may be off (3,), rad/s.
+
+    White noise averages out; what is at the bias instability does not.
+    """
+    white = curve.deviation[-1] * math.sqrt(curve.tau[-1] / curve.duration_s)
+    floor = [0.0 if s.floor is None else s.lowest for s in slopes]
+    return np.maximum(white, floor)

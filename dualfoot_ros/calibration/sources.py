@@ -1,0 +1,69 @@
+"""Recordings of sensors at rest: exports of single sensors, or bags."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..core.series import ImuSeries
+from ..core.trajectory import FEET
+from ..recording import Topics, read_bag
+from ..recording.importers.axes import IDENTITY
+from ..recording.importers.xsens_dot import read_sensor
+from .errors import CalibrationError
+from .file import ANY
+
+EXPORT = ".csv"
+Named = tuple[str, ImuSeries]
+
+
+def load_sources(
+    paths: Sequence[Path],
+    foot: str | None = None,
+    *,
+    axes: str = IDENTITY,
+    topics: Topics | None = None,
+) -> dict[str, list[Named]]:
+    """Return the recordings by sensor: "left", "right", or "sensor" where no foot is known.
+
+    A .csv export holds one sensor, that of ``foot``; a bag holds both, of which ``foot`` may
+    choose one.
+
+    Raises
+    ------
+    CalibrationError
+        When there is no such file, or nothing of the foot in it.
+    RecordingError
+        When a file cannot be read.
+    """
+    found: dict[str, list[Named]] = {}
+    for path in paths:
+        if not path.exists():
+            raise CalibrationError(f"there is no file '{path}'")
+        for name, series in _load(path, foot, axes, topics):
+            found.setdefault(name, []).append((path.stem or str(path), series))
+    if ANY in found and len(found) > 1:
+        raise CalibrationError(
+            "exports and bags are given together; say with --foot of which foot the exports are"
+        )
+    return found
+
+
+def _load(path: Path, foot: str | None, axes: str, topics: Topics | None) -> list[Named]:
+    if path.suffix.lower() == EXPORT:
+        return [(foot or ANY, read_sensor(path, axes))]
+    if axes != IDENTITY:
+        raise CalibrationError(
+            f"'{path}' is a bag, whose axes are forward-left-up already; --axes is for exports"
+        )
+    recording = read_bag(path, topics=topics)
+    feet = FEET if foot is None else (foot,)
+    held = [(name, series) for name in feet if (series := recording.imu(name)) is not None]
+    if not any(len(series) for _, series in held):
+        topic = recording.topics.of(feet[0]).imu
+        there = ", ".join(recording.imu_topics) or "none"
+        raise CalibrationError(
+            f"'{path}' has no samples of {' or '.join(feet)} ('{topic}'); its sensor_msgs/Imu "
+            f"topics are: {there}; name one with --left-topic or --right-topic"
+        )
+    return [(name, series) for name, series in held if len(series)]

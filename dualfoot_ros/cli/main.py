@@ -18,6 +18,7 @@ VERBS = {
     "simulate": "simulate",
     "info": "info",
     "sync": "sync",
+    "calibrate": "calibrate",
     "evaluate": "evaluate",
 }
 EXIT_BAD_INPUT = 2

@@ -12,7 +12,9 @@ from .bags import add_usable_arguments, load_usable
 from .settings import setting
 
 if TYPE_CHECKING:
-    from ..core import TrackerConfig
+    from collections.abc import Iterator
+
+    from ..core import TrackerConfig, Trajectory
     from ..evaluation import Evaluation
     from ..recording import Recording
 
@@ -26,6 +28,8 @@ examples:
   dualfoot evaluate walk --set aids.barometer=true  height from the air pressure in the bag
   dualfoot evaluate walk --reference markers.yaml   floor markers that are not in the bag's folder
   dualfoot evaluate walk --align umeyama4           best fit over the whole walk
+  dualfoot evaluate walk --calibration both.yaml    correct the samples first
+  dualfoot evaluate walk --calibration left=l.yaml --calibration right=r.yaml
 """
 
 
@@ -42,6 +46,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         help="one parameter by its dotted name; may be repeated, wins over --config",
+    )
+    parser.add_argument(
+        "--calibration",
+        metavar="FILE",
+        action="append",
+        default=[],
+        help="calibration file of 'dualfoot calibrate', or left=FILE, right=FILE; may be repeated",
     )
     parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder for the files")
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
@@ -81,6 +92,7 @@ def _add_alignment(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Evaluate, write, print; return the exit code."""
+    from ..calibration import calibrated, for_feet
     from ..evaluation import evaluate, track, truth_of
     from ..evaluation.output import check_directory
 
@@ -88,12 +100,17 @@ def run(args: argparse.Namespace) -> int:
         check_directory(args.output)
     options = _options(args)
     config = _config(args)
+    calibration = for_feet(args.calibration)
     recording = _with_reference(load_usable(args.bag, args), args.reference)
+    recording = calibrated(recording, calibration)
     trajectory = track(recording, config)
     found = evaluate(
         trajectory, truth=truth_of(recording), reference=recording.reference, options=options
     )
+    found = replace(found, notes=(*found.notes, *_objections(recording, config, trajectory)))
+    applied = {foot: list(sensor.triads()) for foot, sensor in calibration.items()}
     metrics = {"bag": args.bag, **found.to_dict(), "parameters": config.to_mapping()}
+    metrics["calibration"] = applied
     paths = [] if args.output is None else _write(args, found, metrics)
     _print(args, found, {**metrics, "files": [str(path) for path in paths]}, paths)
     return 0
@@ -120,6 +137,22 @@ def _with_reference(recording: Recording, path: str | None) -> Recording:
     from ..recording import Reference
 
     return recording if path is None else replace(recording, reference=Reference.load(path))
+
+
+def _objections(
+    recording: Recording, config: TrackerConfig, trajectory: Trajectory
+) -> Iterator[str]:
+    """Yield what tracks without a constraint between the feet show to be wrong."""
+    from ..evaluation import track
+    from ..recording.walk_checks import walk_findings
+
+    if config.method == "rigid_pair":  # both sensors are on one shoe
+        return
+    free = trajectory
+    if config.method != "zupt":
+        free = track(recording, replace(config, method="zupt"))
+    for finding in walk_findings(free):
+        yield f"warning: {finding.sentence}"
 
 
 def _write(args: argparse.Namespace, found: Evaluation, metrics: dict[str, Any]) -> list[Path]:

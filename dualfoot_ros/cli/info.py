@@ -50,7 +50,8 @@ def run(args: argparse.Namespace) -> int:
     qualities = qualities_of(recording)
     found = list(findings(recording, qualities))
     broken = any(f.severity == "error" for f in found)
-    stances = {} if broken or args.no_stances else _stances(recording)
+    stances, of_walk = ({}, []) if broken or args.no_stances else _walked_on(recording)
+    found += of_walk
     topics = list_topics(args.bag)
     if args.json:
         facts = _facts(recording, qualities, stances, found)
@@ -68,17 +69,20 @@ def run(args: argparse.Namespace) -> int:
     return 2 if broken else 0
 
 
-def _stances(recording: Recording) -> dict[str, Stances]:
+def _walked_on(recording: Recording) -> tuple[dict[str, Stances], list[Finding]]:
+    """Track the feet; return their stances and what the tracks show to be wrong."""
     from rich.console import Console
 
     from ..recording.checks import require_usable
-    from ..recording.stances import stances_of
+    from ..recording.stances import free_tracks, stances_of
+    from ..recording.walk_checks import walk_findings
 
     with Console(stderr=True).status("looking for stances"):
         try:
-            return stances_of(*require_usable(recording))
+            tracks = free_tracks(*require_usable(recording))
         except AlignmentError:
-            return {}
+            return {}, []
+        return stances_of(tracks), list(walk_findings(tracks))
 
 
 def _source(recording: Recording) -> str:

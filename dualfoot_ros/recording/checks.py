@@ -19,6 +19,7 @@ GRAVITY_ERROR = 1.5  # m/s^2, more than any accelerometer bias
 FASTEST_FOOT = 35.0  # rad/s (2000 deg/s); no foot turns faster for long
 RATE_RATIO = 1.5
 MILLI = 1e-3
+STUCK_SHARE = 0.1  # more than this and nothing can be made of it
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,7 @@ def findings(
     if len(usable) == len(FEET):
         yield from _together(usable["left"], usable["right"])
     for foot, quality in usable.items():
+        yield from _stuck(foot, quality)
         yield from _standing(foot, quality)
         yield from _stream(foot, quality)
     for name, sentence in pressure_findings(recording.pressure, usable):
@@ -179,6 +181,22 @@ def _together(left: Quality, right: Quality) -> Iterator[Finding]:
             f"the feet have different rates ({left.rate_hz:.1f} and {right.rate_hz:.1f} Hz); set "
             "both sensors to the same rate",
         )
+
+
+def _stuck(foot: str, q: Quality) -> Iterator[Finding]:
+    for stuck in q.stuck:
+        what = "the sensor repeats itself" if stuck.what == "sensor" else f"{stuck.what} is stuck"
+        yield Finding(
+            "error" if stuck.share > STUCK_SHARE else "warning",
+            "stuck",
+            f"{foot} foot: {what} {_times(stuck.times)}, first {stuck.first_s:.1f} s after the "
+            f"start and for up to {stuck.longest_s:.2f} s ({stuck.share:.1%} of the samples have "
+            "not changed); check the sensor and its driver, which may fill gaps with old values",
+        )
+
+
+def _times(count: int) -> str:
+    return "once" if count == 1 else f"{count} times"
 
 
 def _standing(foot: str, q: Quality) -> Iterator[Finding]:

@@ -9,6 +9,7 @@ import numpy as np
 from ..core.series import FloatArray, ImuSeries
 from ..timing import Sync, clean
 from .standstill import Stand, first_stand
+from .stuck import Stuck, stuck_of
 
 CLIP_RATE = 4.0  # rad/s and m/s^2: below this an extreme that repeats is no clipping
 CLIP_FORCE = 15.0
@@ -32,6 +33,7 @@ class Quality:
     median_force, high_rate : median of |specific force|; 98 % quantile of |angular rate|
     peak_force, peak_rate : greatest absolute value of an axis
     clipped_force, clipped_rate : samples at the end of the range
+    stuck : what repeats itself
     """
 
     samples: int
@@ -54,6 +56,7 @@ class Quality:
     peak_rate: float
     clipped_force: int
     clipped_rate: int
+    stuck: tuple[Stuck, ...] = ()
 
     @property
     def duration_s(self) -> float:
@@ -92,6 +95,7 @@ def quality_of(series: ImuSeries, config: Sync | None = None) -> Quality:
         peak_rate=float(np.abs(good.angular_rate).max(initial=0.0)),
         clipped_force=clipped(good.specific_force, CLIP_FORCE),
         clipped_rate=clipped(good.angular_rate, CLIP_RATE),
+        stuck=stuck_of(good),
     )
 
 

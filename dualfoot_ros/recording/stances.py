@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core import DualFootTracker, ImuSeries, TrackerConfig
-from ..core.trajectory import FootTrajectory, stance_bounds
+from ..core.trajectory import FootTrajectory, Trajectory, stance_bounds
 from ..timing import Sync, align
 
 
@@ -21,10 +21,20 @@ class Stances:
     distance_m: float
 
 
-def stances_of(left: ImuSeries, right: ImuSeries, sync: Sync | None = None) -> dict[str, Stances]:
-    """Return the stances of both feet; raise AlignmentError without a standstill."""
-    found = DualFootTracker(TrackerConfig(method="zupt")).run(*align(left, right, sync))
-    return {"left": _of(found.left), "right": _of(found.right)}
+def free_tracks(left: ImuSeries, right: ImuSeries, sync: Sync | None = None) -> Trajectory:
+    """Track both feet without any constraint between them.
+
+    Raises
+    ------
+    AlignmentError
+        Without a standstill.
+    """
+    return DualFootTracker(TrackerConfig(method="zupt")).run(*align(left, right, sync))
+
+
+def stances_of(trajectory: Trajectory) -> dict[str, Stances]:
+    """Return the stances of both feet."""
+    return {"left": _of(trajectory.left), "right": _of(trajectory.right)}
 
 
 def _of(foot: FootTrajectory) -> Stances:

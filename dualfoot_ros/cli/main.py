@@ -20,6 +20,7 @@ VERBS = {
     "sync": "sync",
     "calibrate": "calibrate",
     "evaluate": "evaluate",
+    "compare": "compare",
 }
 EXIT_BAD_INPUT = 2
 EXIT_INTERRUPTED = 130
@@ -30,6 +31,7 @@ examples:
   dualfoot simulate -o walk                 a simulated walk with exact truth, as a bag
   dualfoot info walk                        what is in the bag, in words
   dualfoot evaluate walk -o report          both tracks, their errors, plots
+  dualfoot compare walk                     every method on it, one table
   dualfoot import walk.mat -o walk          a sensor's export, as a bag
   dualfoot VERB --help                      the options of one verb, with examples
 """

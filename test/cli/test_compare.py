@@ -1,0 +1,126 @@
+"""``dualfoot compare`` as a user meets it."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from dualfoot_ros.cli.main import main
+from dualfoot_ros.recording import Recording, write_bag
+from dualfoot_ros.simulation import WalkConfig, simulate
+
+
+@pytest.fixture(scope="module")
+def bags(tmp_path_factory):
+    """Return the folders of two simulated walks with truth."""
+    folder = tmp_path_factory.mktemp("bags")
+    for seed in (4, 5):
+        config = WalkConfig(route="straight", rate=60.0, standing=4.0, final_standing=1.0)
+        made = simulate(config, seed=seed)
+        recording = Recording(made.left, made.right, made.left_truth, made.right_truth)
+        write_bag(folder / f"walk{seed}", recording)
+    return [str(folder / "walk4"), str(folder / "walk5")]
+
+
+def test_one_table_has_a_line_for_every_method_but_the_one_for_one_shoe(bags, capsys):
+    assert main(["compare", bags[0], "--jobs", "1"]) == 0
+    out = capsys.readouterr().out
+    for name in ("zupt", "mdmd_ckf", "spacing_vector", "varying_distance", "step_length"):
+        assert name in out
+    assert "rigid_pair" not in out
+
+
+def test_the_json_has_every_run_of_every_bag_the_same_in_one_process_and_in_two(bags, capsys):
+    found = []
+    for jobs in ("1", "2"):
+        arguments = ["compare", *bags, "--methods", "zupt,idc", "--json", "--jobs", jobs]
+        assert main(arguments) == 0
+        found.append(json.loads(capsys.readouterr().out))
+    assert [(run["bag"], run["case"]) for run in found[0]["runs"]] == [
+        (bag, name) for bag in bags for name in ("zupt", "idc")
+    ]
+    for document in found:
+        assert document["failed"] == {}
+        for run in document["runs"]:
+            assert run.pop("run_s") > 0.0
+    assert found[0] == found[1]
+
+
+def test_a_bag_that_fails_is_named_and_the_others_go_on(bags, tmp_path, capsys):
+    missing = str(tmp_path / "nowhere")
+    code = main(["compare", missing, bags[0], "--methods", "zupt,idc", "--csv", "--jobs", "1"])
+    assert code == 1
+    out, err = capsys.readouterr()
+    assert {row["case"] for row in csv.DictReader(out.splitlines())} == {"zupt", "idc"}
+    assert err.count("nowhere") >= 1 and len(err.strip().splitlines()) == 1
+
+
+def test_when_nothing_can_be_compared_the_code_says_so(tmp_path, capsys):
+    assert main(["compare", str(tmp_path / "nowhere"), "--methods", "zupt"]) == 2
+    assert "nowhere" in capsys.readouterr().err
+
+
+def test_the_report_has_figures_of_tracks_and_sweeps(bags, tmp_path, capsys):
+    target = tmp_path / "report"
+    arguments = ["--methods", "zupt,idc", "--sweep", "kappa=0.5,0.6", "-o", str(target)]
+    assert main(["compare", bags[0], *arguments, "--jobs", "1"]) == 0
+    names = {"compare.json", "compare.csv", "tracks_walk4.png", "sweep_kappa.png"}
+    assert {path.name for path in target.iterdir()} == names
+    assert all(path.stat().st_size > 500 for path in target.iterdir())
+    printed = capsys.readouterr().out
+    assert all(str(target / name) in printed for name in names)
+    rows = list(csv.DictReader((target / "compare.csv").open()))
+    assert [row["value"] for row in rows] == ["", "", "0.5", "0.6"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--methods", "ukf"], "'ukf' is no method"),
+        (["--sweep", "kappa=1"], "has the parameter"),
+        (["--sweep", "kappa"], "--sweep 'kappa'"),
+        (["--repeat", "0"], "--repeat is 0; allowed is 1 to 20"),
+        (["--jobs", "0"], "--jobs is 0; allowed"),
+        (["--set", "zupt.std=9"], "zupt.std"),
+        (["--config", "nothing"], "unknown preset 'nothing'"),
+    ],
+)
+def test_arguments_that_cannot_be_used_are_refused_before_anything_runs(
+    arguments, said, tmp_path, capsys
+):
+    given = ["--methods", "zupt"] if "--methods" not in arguments else []
+    assert main(["compare", str(tmp_path), *given, *arguments]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_walk_repeated_four_times_is_four_times_as_long(bags, capsys):
+    found = []
+    for times in ("1", "4"):
+        arguments = ["--methods", "zupt", "--repeat", times, "--json", "--jobs", "1"]
+        assert main(["compare", bags[0], *arguments]) == 0
+        (run,) = json.loads(capsys.readouterr().out)["runs"]
+        found.append(run)
+    assert found[1]["distance_m"]["right"] > 3.5 * found[0]["distance_m"]["right"]
+    assert found[1]["truth"] is None
+
+
+def test_an_interrupt_ends_it_cleanly_and_soon(bags):
+    arguments = ["--sweep", "kappa=0.3:0.8:0.01", "--methods", "mdmd_ukf", "--jobs", "2"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "dualfoot_ros", "compare", *bags, *arguments],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    time.sleep(4.0)
+    assert process.poll() is None
+    os.killpg(process.pid, signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert (out, err) == ("", "dualfoot compare: interrupted\n")

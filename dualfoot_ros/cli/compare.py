@@ -26,7 +26,7 @@ examples:
   dualfoot compare walk -o report                         also compare.json, compare.csv, figures
   dualfoot compare walk --methods idc --sweep kappa=0.4:0.7:0.05 --sweep gamma=6000,8000,10000
   dualfoot compare rectangles/* --repeat 4                four rounds each, and the 68th stride
-  dualfoot compare walks/* --csv > figures.csv            one row a bag and method
+  dualfoot compare walks/* --csv                          one row a bag and method
   dualfoot compare board --methods zupt,rigid_pair        two sensors on one shoe
 
 A sweep runs the chosen methods that have the parameter: kappa, distance, spacing ... or any by its

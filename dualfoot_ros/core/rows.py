@@ -116,4 +116,16 @@ def to_trajectory(
         )
     relative = full_symmetric(rows[:, at.O_RELATIVE : at.O_RELATIVE + 6])
     start = int(stamps[0]) if len(stamps) else 0
-    return Trajectory(feet[0], feet[1], relative, events, dict(counters), start, method)
+    nis = zupt_nis(rows)
+    return Trajectory(feet[0], feet[1], relative, events, dict(counters), start, method, nis)
+
+
+def zupt_nis(rows: FloatArray) -> FloatArray:
+    """Return the (N, 2) NIS of the zero-velocity updates of both feet, nan where there is none."""
+    starts = [foot * at.O_FOOT for foot in range(2)]
+    return np.column_stack(
+        [
+            np.where(rows[:, o + at.O_STANCE] > 0.0, rows[:, o + at.O_ZUPT + 12], np.nan)
+            for o in starts
+        ]
+    )

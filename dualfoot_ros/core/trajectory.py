@@ -96,6 +96,7 @@ class Trajectory:
 
     ``relative_covariance`` (N, 3, 3) is the covariance of left minus right position.
     ``start_ns`` is the epoch at which the alignment was done and the output starts.
+    ``zupt_nis`` (N, 2) is the NIS of each foot's zero-velocity update, nan where there was none.
     """
 
     left: FootTrajectory
@@ -105,6 +106,7 @@ class Trajectory:
     counters: Mapping[str, int]
     start_ns: int
     method: str
+    zupt_nis: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
 
     def of_kind(self, kind: EventKind, foot: str | None = None) -> list[Event]:
         """Return the events of one kind, of one foot if given."""

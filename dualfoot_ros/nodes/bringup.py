@@ -12,7 +12,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.task import Future
-from sensor_msgs.msg import Imu
+from sensor_msgs.msg import FluidPressure, Imu
 
 from ..core.trajectory import FEET
 from ..options import BringupOptions, node_specs
@@ -20,6 +20,7 @@ from . import qos
 from .fusion import FusionNode
 from .imu_adapter import ImuAdapterNode
 from .parameters import declare, group
+from .pressure import TOPICS
 from .replay import ReplayNode
 from .shell import Graph, Program, destroy, run_nodes
 from .time_sync import TimeSyncNode
@@ -69,7 +70,7 @@ def _add_nodes(
     nodes.append(fusion)
     nodes.append(TimeSyncNode(**options))
     if settings.record:
-        nodes.append(_recorder(Path(settings.record).expanduser(), options))
+        nodes.append(_recorder(Path(settings.record).expanduser(), fusion, options))
     if settings.bag:
         replay = ReplayNode(**_with(options, Parameter("bag", value=settings.bag)))
         nodes.append(replay)
@@ -91,13 +92,15 @@ def _with(options: dict[str, Any], *parameters: Parameter) -> dict[str, Any]:
     return {**options, "parameter_overrides": [*given, *parameters]}
 
 
-def _recorder(path: Path, options: dict[str, Any]) -> Node:
+def _recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> Node:
     from .recorder import RecorderNode
 
     topics: dict[str, Any] = {}
     for foot in FEET:
         topics[f"{foot}/imu/data_raw"] = (Imu, qos.sensor(2000))
         topics[f"{foot}/odometry"] = (Odometry, qos.result(2000))
+    if fusion.pressure is not None:
+        topics |= {topic: (FluidPressure, qos.sensor(2000)) for topic in TOPICS.values()}
     topics["odometry"] = (Odometry, qos.result(2000))
     topics["fusion/events"] = (DiagnosticArray, qos.latched(200))
     return RecorderNode(path, topics, **options)

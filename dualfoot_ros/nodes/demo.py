@@ -140,7 +140,8 @@ def _compare(
     from .live_run import run_offline, same_bits
 
     assert recording.left is not None and recording.right is not None
-    batch = run_offline({"left": recording.left, "right": recording.right}, config)
+    samples = {"left": recording.left, "right": recording.right}
+    batch = run_offline(samples, config, recording.pressure)
     epochs = len(live.trajectory.left)
     if same_bits(live.trajectory, batch):
         said = f"{epochs} epochs, equal to the offline run to the bit"

@@ -23,14 +23,16 @@ from .health import Health
 from .messages import imu_values, pose_yaw, to_ns
 from .outputs import Outputs
 from .parameters import declare, group
+from .pressure import PressureInputs
 from .shell import Graph, Program, run_nodes
 from .suspicion import UnitSuspicion
-from .watch import Input, Watch
+from .watch import Input, Watch, Watched
 
 PROGRAM = Program(
     "fusion",
     "Track both feet: left|right/imu/data_raw (or data_sync) in; left|right/odometry,\n"
-    "left|right/path and odometry (the person between the feet) out.",
+    "left|right/path and odometry (the person between the feet) out. With aids.barometer also\n"
+    "left|right/pressure in, or pressure of a sensor worn on the body.",
     "  ros2 run dualfoot_ros fusion\n"
     "  ros2 run dualfoot_ros fusion --ros-args --params-file config/liu2023.yaml\n"
     "  ros2 run dualfoot_ros fusion --ros-args -p method:=zupt \\\n"
@@ -70,7 +72,13 @@ class FusionNode(Node):
             foot: Input(self, Imu, f"{foot}/{topic}", self._receiver(foot), profile)
             for foot in FEET
         }
-        self.watch = Watch(self, list(self.inputs.values()), options.silence)
+        self.pressure: PressureInputs | None = None
+        if self.tracker.config.aids.barometer:
+            self.pressure = PressureInputs(self, self.tracker.add_pressure, options.depth)
+        watched: list[Watched] = [*self.inputs.values()]
+        if self.pressure is not None:
+            watched.append(self.pressure)
+        self.watch = Watch(self, watched, options.silence)
 
     def _obey(self, frame_id: str) -> None:
         self._frame_id = frame_id

@@ -109,6 +109,8 @@ class Health:
         bad = [name for name, rate in rates.items() if rate > 0 and _is_refusal(name)]
         if bad:
             status.note(WARN, f"samples are refused: {', '.join(bad)}")
+        if rates.get("tracker stances_without_pressure", 0.0) > 0:
+            status.note(WARN, "stances go without air pressure: check its clock and rate")
         if self._external and rates["aligner interpolated"] > 0:
             status.note(WARN, "the streams do not share their stamps; use sync: internal")
 

@@ -20,10 +20,12 @@ from rclpy.parameter import Parameter
 
 from ..core import DualFootTracker, TrackerConfig, Trajectory
 from ..core.errors import DualFootError
-from ..core.series import ImuSeries
+from ..core.series import ImuSeries, PressureSeries
+from ..core.trajectory import FEET
 from ..timing import align
 from .collector import CollectorNode
 from .fusion import FusionNode
+from .pressure import TOPICS
 from .replay import ReplayNode
 from .shell import destroy
 from .time_sync import TimeSyncNode
@@ -72,7 +74,6 @@ class LiveGraph:
             self.collectors[name] = self._add(CollectorNode, {}, space)
         values = {"bag": str(bag), "clock": False}
         self.replay = self._add(ReplayNode, values, "", gate=self._may_go_on)
-        self.total = sum(len(each) for each in self.replay.series.values())
 
     def _add(self, kind: Callable[..., Any], values: dict, space: str, **options: Any) -> Any:
         overrides = [Parameter(name, value=value) for name, value in values.items()]
@@ -89,10 +90,13 @@ class LiveGraph:
         """Return how many samples wait between the nodes, a number a hop."""
         received = sum(each.received for each in self.sync.inputs.values())
         pairs = self.sync.aligner.counters["pairs"]
-        found = [self.replay.player.played - received]
+        pressures = self.replay.pressure.sent
+        found = [self.replay.player.played - pressures - received]
         for name, fusion in self.fusions.items():
             collector = self.collectors[name].messages
             found.append(2 * pairs - sum(each.received for each in fusion.inputs.values()))
+            if fusion.pressure is not None:
+                found.append(pressures - fusion.pressure.received)
             found.append(3 * fusion.outputs.published - sum(map(len, collector.values())))
         return found
 
@@ -117,7 +121,8 @@ class LiveGraph:
             executor.shutdown()
         if not self.replay.done.done():
             raise DualFootError(
-                f"the replay stopped after {self.replay.player.played} of {self.total} samples"
+                f"the replay stopped after {self.replay.player.played} of "
+                f"{self.replay.total} samples"
             )
 
     def _spin(self, executor: SingleThreadedExecutor, progress: Progress) -> None:
@@ -128,7 +133,7 @@ class LiveGraph:
                 executor.spin_once(timeout_sec=0.05)
                 if self.replay.done.done() and not any(self._under_way()):
                     return
-            progress(self.replay.player.played / self.total)
+            progress(self.replay.player.played / self.replay.total)
             now = (self.replay.player.played, *self._under_way())
             if now != state:
                 state, since = now, time.monotonic()
@@ -167,10 +172,14 @@ def run_live(
         graph.close()
 
 
-def run_offline(series: Mapping[str, ImuSeries], config: TrackerConfig) -> Trajectory:
+def run_offline(
+    series: Mapping[str, ImuSeries],
+    config: TrackerConfig,
+    pressure: Mapping[str, PressureSeries] | None = None,
+) -> Trajectory:
     """Return the batch run of the same samples."""
     left, right = align(series["left"], series["right"])
-    return DualFootTracker(config).run(left, right)
+    return DualFootTracker(config).run(left, right, pressure)
 
 
 def same_bits(live: Trajectory, batch: Trajectory) -> bool:
@@ -183,5 +192,6 @@ def same_bits(live: Trajectory, batch: Trajectory) -> bool:
 
 
 def _inputs(space: str) -> list[str]:
-    remaps = [f"{f}/imu/data_sync:=/{space}/{f}/imu/data_sync" for f in ("left", "right")]
+    names = [*(f"{foot}/imu/data_sync" for foot in FEET), *TOPICS.values()]
+    remaps = [f"{name}:=/{space}/{name}" for name in names]
     return ["--ros-args", *(word for remap in remaps for word in ("-r", remap))]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.series import FloatArray, ImuSeries
+from ..core.series import FloatArray, ImuSeries, PressureSeries
 from ..core.trajectory import FEET
 from ..options import Play
 
@@ -18,7 +18,10 @@ LONGEST_NAP = 0.1  # s, so that a stop is obeyed soon
 
 
 class Sample(NamedTuple):
-    """One recorded sample; ``due_ns`` is when it was recorded, never earlier than those before."""
+    """One recorded sample; ``due_ns`` is when it was recorded, never earlier than those before.
+
+    ``foot`` is "left" or "right", or the topic of a sensor that is none of the feet's own.
+    """
 
     due_ns: int
     foot: str
@@ -26,11 +29,11 @@ class Sample(NamedTuple):
     values: FloatArray
 
 
-def in_order(series: dict[str, ImuSeries]) -> Iterator[Sample]:
-    """Yield the samples of both feet in the order in which they were recorded."""
+def in_order(series: Mapping[str, ImuSeries | PressureSeries]) -> Iterator[Sample]:
+    """Yield the samples of all sensors in the order in which they were recorded."""
     tables = {foot: _table(each) for foot, each in series.items() if len(each)}
     due = {f: np.maximum.accumulate(series[f].stamp_ns).tolist() for f in tables}
-    feet = [foot for foot in FEET if foot in tables]
+    feet = sorted(tables, key=lambda foot: (foot not in FEET, foot))
     keys = np.concatenate([np.asarray(due[foot]) for foot in feet])
     which = np.concatenate([np.full(len(due[foot]), k) for k, foot in enumerate(feet)])
     rows = np.concatenate([np.arange(len(due[foot])) for foot in feet])
@@ -120,5 +123,7 @@ class Player:
                 return
 
 
-def _table(series: ImuSeries) -> FloatArray:
+def _table(series: ImuSeries | PressureSeries) -> FloatArray:
+    if isinstance(series, PressureSeries):
+        return series.pressure[:, None]
     return np.hstack([series.specific_force, series.angular_rate])

@@ -12,15 +12,16 @@ from rclpy.task import Future
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 
-from ..core.series import ImuSeries
+from ..core.series import ImuSeries, PressureSeries
 from ..core.trajectory import FEET
 from ..options import Play, ReplayOptions, Reports, node_specs
-from ..recording import RecordingError, read_bag
+from ..recording import Recording, RecordingError, read_bag
 from . import qos
 from .diagnostics import Reporter, Status
 from .messages import new_imu, set_imu_values, set_time
 from .parameters import declare, group
 from .player import Player, Sample, in_order
+from .pressure import TOPICS, PressureOutputs
 from .shell import Graph, Program, run_nodes
 from .watch import watched_publisher
 
@@ -28,7 +29,8 @@ DEPTH = 2000
 CLOCK_STEP_NS = 5_000_000
 PROGRAM = Program(
     "replay",
-    "Publish the samples of a bag as left|right/imu/data_raw, and /clock; ends with the bag.",
+    "Publish the samples of a bag as left|right/imu/data_raw, its air pressure as\n"
+    "left|right/pressure or pressure, and /clock; ends with the bag.",
     "  ros2 run dualfoot_ros replay --ros-args -p bag:=bags/demo\n"
     "  ros2 run dualfoot_ros replay --ros-args -p bag:=walk.mcap -p play.rate:=4.0 "
     "-p play.loop:=true",
@@ -56,9 +58,14 @@ class ReplayNode(Node):
         super().__init__("replay", **options)
         values = declare(self, node_specs("replay"))
         own = group(ReplayOptions, values)
-        self.series, frames = _read(own.bag)
+        recording = _read(own.bag)
+        self.series = _series(recording, own.bag)
+        pressure = dict(recording.pressure)
+        samples: dict[str, ImuSeries | PressureSeries] = {**self.series}
+        samples |= {TOPICS[worn]: each for worn, each in pressure.items()}
+        self.pressure = PressureOutputs(self, pressure, DEPTH)
         self.done: Future = Future()
-        self._messages = {foot: new_imu(frames[foot]) for foot in self.series}
+        self._messages = {foot: new_imu(recording.frame(foot)) for foot in self.series}
         self._out = {
             foot: watched_publisher(self, Imu, f"{foot}/imu/{own.topic}", qos.sensor(DEPTH))
             for foot in self.series
@@ -67,8 +74,9 @@ class ReplayNode(Node):
             self.create_publisher(Clock, "/clock", qos.clock()) if own.clock else None
         )
         self._clock_ns = 0
+        self.total = sum(len(each) for each in samples.values())
         self.player = Player(
-            lambda: in_order(self.series),
+            lambda: in_order(samples),
             self._publish,
             group(Play, values, "play."),
             alive=self.context.ok,
@@ -89,6 +97,9 @@ class ReplayNode(Node):
             and abs(sample.due_ns - self._clock_ns) >= CLOCK_STEP_NS
         ):
             self._publish_clock(sample.due_ns)
+        if sample.foot not in self._messages:
+            self.pressure.publish(sample.foot, sample.stamp_ns, float(sample.values[0]))
+            return
         message = self._messages[sample.foot]
         set_time(message.header.stamp, sample.stamp_ns)
         set_imu_values(message, sample.values)
@@ -107,7 +118,7 @@ class ReplayNode(Node):
 
     def _collect(self, status: Status) -> None:
         status.values["played"] = self.player.played
-        status.values["samples"] = sum(len(each) for each in self.series.values())
+        status.values["samples"] = self.total
 
     def destroy_node(self) -> None:
         """Stop playing, then destroy the node."""
@@ -115,17 +126,20 @@ class ReplayNode(Node):
         super().destroy_node()
 
 
-def _read(bag: str) -> tuple[dict[str, ImuSeries], dict[str, str]]:
+def _read(bag: str) -> Recording:
     if not bag:
         raise RecordingError("parameter 'bag' is empty; allowed is the path of a bag to play")
-    recording = read_bag(Path(bag).expanduser())
+    return read_bag(Path(bag).expanduser())
+
+
+def _series(recording: Recording, bag: str) -> dict[str, ImuSeries]:
     found = {foot: recording.imu(foot) for foot in FEET}
     series = {foot: each for foot, each in found.items() if each is not None and len(each)}
     if not series:
         raise RecordingError(
             f"bag '{bag}' has no samples on /left/imu/data_raw or /right/imu/data_raw"
         )
-    return series, {foot: recording.frame(foot) for foot in series}
+    return series
 
 
 def _build() -> Graph:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Protocol
 
 from rclpy.clock import Clock, ClockType
 from rclpy.event_handler import (
@@ -93,10 +93,29 @@ class Input:
         )
 
 
+class Watched(Protocol):
+    """What a node waits for: one topic, or several of which one is enough."""
+
+    @property
+    def topic(self) -> str:
+        """Full name of the topic."""
+
+    @property
+    def received(self) -> int:
+        """Messages that have arrived."""
+
+    @property
+    def lost(self) -> int:
+        """Messages that have not."""
+
+    def complaint(self, silence_s: float) -> str | None:
+        """Return why nothing came for ``silence_s``, or None when something did."""
+
+
 class Watch:
     """Looks at the inputs of a node by the wall clock and warns once for each new complaint."""
 
-    def __init__(self, node: Node, inputs: Sequence[Input], silence_s: float) -> None:
+    def __init__(self, node: Node, inputs: Sequence[Watched], silence_s: float) -> None:
         self._node, self._inputs, self._silence_s = node, inputs, silence_s
         self._said: dict[str, str | None] = {}
         self._lost: dict[str, int] = {}

@@ -70,6 +70,7 @@ class AccelerometerFit:
     residual_before, residual_after : (K,) m/s^2, norm of the specific force minus gravity
     attitudes : number of different attitudes
     redundancy : attitudes less parameters; 0 means that the residuals are zero by construction
+    sigma : m/s^2, the misfit of an attitude on which the standard deviations rest
     gravity : m/s^2
     """
 
@@ -82,6 +83,7 @@ class AccelerometerFit:
     residual_after: FloatArray
     attitudes: int
     redundancy: int
+    sigma: float
     gravity: float
 
     def triad(self) -> Triad:
@@ -129,6 +131,7 @@ def why_not(segments: Sequence[Segment], model: Model, gravity: float) -> str:
         return f"{count} different {plural} too few: {need}{_missing(segments)}"
     fitted = _fit(segments, model, gravity)
     std = np.concatenate([fitted.bias_std, np.diag(fitted.matrix_std), fitted.matrix_std[LOWER]])
+    std *= REPEATABILITY / fitted.sigma  # where the attitudes lie, not how well they fit
     worst = int(np.argmax(std[: model.size] / LARGEST_STD[: model.size]))
     if std[worst] > LARGEST_STD[worst]:
         return (
@@ -170,7 +173,17 @@ def _fit(segments: Sequence[Segment], model: Model, gravity: float) -> Accelerom
     bias_std, matrix_std = _spread(np.sqrt(np.diag(covariance)))
     before, after = norms(means) - gravity, norms((means - bias) @ matrix.T) - gravity
     return AccelerometerFit(
-        model.name, bias, matrix, bias_std, matrix_std, before, after, count, redundancy, gravity
+        model.name,
+        bias,
+        matrix,
+        bias_std,
+        matrix_std,
+        before,
+        after,
+        count,
+        redundancy,
+        sigma,
+        gravity,
     )
 
 

@@ -22,7 +22,7 @@ from .errors import CalibrationError
 
 PER_OCTAVE = 4
 SHARE = 1.0 / 9.0  # of the record, the longest time told; its deviation is known to 25 %
-SLOPE_ERROR = 0.15  # a slope counts as white noise or random walk within this
+SLOPE_ERROR = 0.15  # a slope counts as that of white noise within this
 FLOOR = math.sqrt(2.0 * math.log(2.0) / math.pi)
 RISE_SIGMAS = 3.0  # the curve must have risen by this after its minimum to show a floor
 LEAST_SAMPLES = 90
@@ -109,14 +109,12 @@ def slopes_of(curve: AllanCurve, axis: int) -> Slopes:
     floor = bool(at > 0 and (risen > 0.0).any())
     slope = _local_slope(tau, deviation)
     falling = (np.abs(slope + 0.5) < SLOPE_ERROR) & (np.arange(len(tau)) <= at)
-    rising = (np.abs(slope - 0.5) < SLOPE_ERROR) & (np.arange(len(tau)) > at)
     white = _mean_log(deviation * np.sqrt(tau), falling, error)
-    walk = _mean_log(deviation / np.sqrt(tau / 3.0), rising, error)
     return Slopes(
         white=white,
         floor=float(deviation[at]) / FLOOR if floor else None,
         floor_tau=float(tau[at]) if floor else None,
-        walk=walk if floor else None,
+        walk=_walk(curve, deviation) if floor else None,
         lowest=float(deviation[at]),
     )
 
@@ -129,6 +127,18 @@ def _local_slope(tau: FloatArray, deviation: FloatArray) -> FloatArray:
         near = np.abs(x - x[k]) <= math.log(2.0) * 1.01
         slope[k] = np.polyfit(x[near], y[near], 1)[0] if near.sum() > 1 else np.nan
     return slope
+
+
+def _walk(curve: AllanCurve, deviation: FloatArray) -> float | None:
+    """Return K from the fit sigma^2 = N^2 / tau + F^2 + K^2 tau / 3, where K rules the end."""
+    from scipy.optimize import nnls
+
+    tau = curve.tau
+    parts = np.column_stack([1.0 / tau, np.ones(len(tau)), tau / 3.0])
+    weight = 1.0 / (2.0 * curve.relative_error * deviation**2)
+    squares, _ = nnls(parts * weight[:, None], deviation**2 * weight)
+    last = parts[-1] * squares
+    return math.sqrt(float(squares[2])) if last[2] > 0.5 * last.sum() else None
 
 
 def _mean_log(level: FloatArray, use: np.ndarray, error: FloatArray) -> float | None:

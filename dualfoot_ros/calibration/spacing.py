@@ -31,6 +31,7 @@ from .errors import CalibrationError
 
 LEAST_PASSINGS = 8
 LEAST_STEPS = 3
+CURVE_DEG = 25.0  # two steps in which the walk turns by less tell kappa
 SEEN_STD_M = 0.05  # the spacing counts as seen when it is known this well
 SWAPPED_SIGMAS = 3.0
 KAPPA = (0.2, 0.8)
@@ -173,7 +174,12 @@ def _kappas(passings: Sequence[Passing], details: Sequence[_Detail], lag_s: floa
         before, now, after = passings[k - 1 : k + 2]
         alternating = before.standing == after.standing != now.standing
         d = details[k]
-        if alternating and straight(before, after) and d.speed > 0.5 and d.stance_s > 0.0:
+        if (
+            alternating
+            and straight(before, after, CURVE_DEG)
+            and d.speed > 0.5
+            and d.stance_s > 0.0
+        ):
             ahead = (details[k - 1].ahead + 2.0 * d.ahead + details[k + 1].ahead) / 4.0
             found.append(SHARE + (lag_s - ahead / d.speed) / d.stance_s)
     if len(found) < LEAST_STEPS:

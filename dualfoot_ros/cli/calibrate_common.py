@@ -78,8 +78,9 @@ def existing(path: Path | None) -> Calibration:
 
 
 def figure_path(output: Path, what: str, sensors: Sequence[str] = ()) -> Path:
-    """Return where the figure beside ``output`` goes; one foot of two has its name in it."""
-    foot = f"{sensors[0]}_" if len(sensors) == 1 and sensors[0] in FEET else ""
+    """Return where the figure beside ``output`` goes; one foot alone has its name in it."""
+    one = len(sensors) == 1 and sensors[0] in FEET and sensors[0] not in output.stem
+    foot = f"{sensors[0]}_" if one else ""
     return output.with_name(f"{output.stem}_{foot}{what}.png")
 
 

@@ -163,6 +163,6 @@ def _scatter(passings: Sequence[Passing]) -> float:
     return float(1.4826 * np.median(np.abs(bends)) / math.sqrt(6.0))
 
 
-def straight(first: Passing, last: Passing) -> bool:
-    """Return whether the walk went on in the same direction, within 10 degrees."""
-    return float(first.forward @ last.forward) > math.cos(math.radians(10.0))
+def straight(first: Passing, last: Passing, within_deg: float = 10.0) -> bool:
+    """Return whether the walk went on in the same direction."""
+    return float(first.forward @ last.forward) > math.cos(math.radians(within_deg))

@@ -1,0 +1,204 @@
+"""``dualfoot calibrate`` as a user meets it."""
+
+import json
+
+import numpy as np
+import pytest
+import yaml
+from calibration.rest import SIX, export, joined, moving, resting
+
+from dualfoot_ros.calibration import Calibration
+from dualfoot_ros.cli.main import main
+from dualfoot_ros.recording import Recording, write_bag
+from dualfoot_ros.simulation import WalkConfig, simulate
+
+BIAS = (0.1, -0.05, 0.2)
+
+
+@pytest.fixture(scope="module")
+def six(tmp_path_factory):
+    """Return the exports of six positions."""
+    folder = tmp_path_factory.mktemp("six")
+    return [
+        str(export(folder / f"{k}.csv", resting(up, bias=BIAS, seed=k)))
+        for k, up in enumerate(SIX)
+    ]
+
+
+@pytest.fixture(scope="module")
+def tumbled(tmp_path_factory):
+    """Return a bag in which both sensors were turned from side to side."""
+    parts = [part for up in SIX for part in (resting(up, bias=BIAS), moving())]
+    path = tmp_path_factory.mktemp("bags") / "tumbled"
+    write_bag(path, Recording(joined(*parts), joined(*parts)))
+    return str(path)
+
+
+@pytest.fixture(scope="module")
+def bags(tmp_path_factory):
+    """Return walks as bags: a figure of eight, the same exchanged, a straight line."""
+    folder = tmp_path_factory.mktemp("walks")
+    eight = simulate(WalkConfig(route="figure_eight"), seed=1)
+    line = simulate(WalkConfig(route="straight"), seed=1)
+    write_bag(folder / "eight", Recording(eight.left, eight.right))
+    write_bag(folder / "exchanged", Recording(eight.right, eight.left))
+    write_bag(folder / "line", Recording(line.left, line.right))
+    return {name: str(folder / name) for name in ("eight", "exchanged", "line")}
+
+
+def test_six_exports_become_a_calibration_file_with_a_figure_beside_it(six, tmp_path, capsys):
+    target = tmp_path / "right.yaml"
+    assert main(["calibrate", "accelerometer", *six, "--foot", "right", "-o", str(target)]) == 0
+    out = capsys.readouterr().out
+    for words in ("bias and scale from 6 standstills", "before", "cross-validation", str(target)):
+        assert words in out
+    assert "proves nothing" in out
+    found = Calibration.load(target).sensors["right"].accelerometer
+    assert np.allclose(found.bias, BIAS, atol=0.01)
+    assert {p.name for p in tmp_path.iterdir()} == {
+        "right.yaml",
+        "right_accelerometer.png",
+    }
+
+
+def test_a_file_that_is_there_is_added_to(six, tmp_path, capsys):
+    target = str(tmp_path / "both.yaml")
+    common = ["-o", target, "--no-plots"]
+    assert main(["calibrate", "accelerometer", *six, "--foot", "right", *common]) == 0
+    assert main(["calibrate", "accelerometer", *six, "--foot", "left", *common]) == 0
+    assert main(["calibrate", "gyro", six[0], "--foot", "left", *common]) == 0
+    sensors = Calibration.load(target).sensors
+    assert list(sensors["left"].triads()) == ["accelerometer", "gyro"]
+    assert list(sensors["right"].triads()) == ["accelerometer"]
+
+
+def test_a_bag_calibrates_both_sensors_and_evaluate_takes_the_file(
+    tumbled, bags, tmp_path, capsys
+):
+    target = str(tmp_path / "both.yaml")
+    assert main(["calibrate", "accelerometer", tumbled, "-o", target, "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["left"]["attitudes"] == 6
+    assert facts["right"]["cross_validation"]["how"] == "half"
+    evaluate = ["evaluate", bags["eight"], "--method", "zupt", "--json"]
+    assert main([*evaluate, "--calibration", target]) == 0
+    corrected = json.loads(capsys.readouterr().out)
+    assert main(evaluate) == 0
+    as_recorded = json.loads(capsys.readouterr().out)
+    assert corrected["calibration"] == {"left": ["accelerometer"], "right": ["accelerometer"]}
+    assert as_recorded["calibration"] == {}
+    assert corrected["distance_m"] != as_recorded["distance_m"]
+
+
+def test_a_gyro_tells_its_bias_and_what_it_could_not_see(six, tmp_path, capsys):
+    noise = tmp_path / "noise.yaml"
+    command = ["calibrate", "gyro", *six, "--parameters", str(noise), "-o"]
+    assert main([*command, str(tmp_path / "gyro.yaml")]) == 0
+    captured = capsys.readouterr()
+    assert "gyro bias" in captured.out
+    assert "too short for the bias instability" in captured.err
+    parameters = yaml.safe_load(noise.read_text())["/**"]["ros__parameters"]["noise"]
+    assert set(parameters) == {"gyro", "accelerometer"}
+    assert (tmp_path / "gyro_allan.png").is_file()
+
+
+def test_a_walk_becomes_a_parameter_file_that_evaluate_takes(bags, tmp_path, capsys):
+    target = tmp_path / "gait.yaml"
+    assert main(["calibrate", "spacing", bags["eight"], "-o", str(target)]) == 0
+    assert "kappa" in capsys.readouterr().out
+    assert (tmp_path / "gait_passing.png").is_file()
+    evaluate = ["evaluate", bags["eight"], "--config", str(target), "--json"]
+    assert main([*evaluate, "--method", "idc"]) == 0
+    used = json.loads(capsys.readouterr().out)["parameters"]
+    assert 0.1 < used["idc.distance"] < 0.2
+
+
+def test_a_straight_walk_says_that_it_cannot_tell_the_distance(bags, capsys):
+    assert main(["calibrate", "spacing", bags["line"], "--json"]) == 0
+    captured = capsys.readouterr()
+    facts = json.loads(captured.out)
+    assert (facts["seen"], facts["c0_m"], facts["step_width_m"]) == (False, None, None)
+    assert facts["kappa"] == pytest.approx(0.5, abs=0.05)
+    assert "cannot be told" in captured.err
+
+
+def test_exchanged_feet_are_said_by_calibrate_info_and_evaluate(bags, capsys):
+    assert main(["calibrate", "spacing", bags["exchanged"]]) == 2
+    assert "the sensors are exchanged" in capsys.readouterr().err
+    assert main(["info", bags["exchanged"]]) == 0
+    assert "left and right seem to be exchanged" in capsys.readouterr().out
+    assert main(["evaluate", bags["exchanged"], "--json"]) == 0
+    notes = json.loads(capsys.readouterr().out)["notes"]
+    assert any("exchanged" in note for note in notes)
+    assert main(["info", bags["eight"]]) == 0
+    assert "exchanged" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["accelerometer", "no_such.csv"], "there is no file 'no_such.csv'"),
+        (["accelerometer", "SIX", "--gravity", "9"], "--gravity is 9; allowed is 9.7 to 9.9"),
+        (["accelerometer", "SIX", "--axes", "+x+x+z"], "an axis occurs twice"),
+        (["accelerometer", "SIX", "--model", "full"], "need at least 9 attitudes"),
+        (["accelerometer", "ONE"], "1 different attitude is too few"),
+        (["accelerometer", "ONE", "EIGHT"], "exports and bags are given together"),
+        (["accelerometer", "EIGHT", "--axes=+y-x+z"], "--axes is for exports"),
+        (["accelerometer", "EIGHT"], "different attitude"),
+        (["gyro", "EIGHT", "--left-topic", "/a", "--right-topic", "/b"], "name one with"),
+        (["spacing", "no_such_bag"], "no_such_bag"),
+        (["spacing", "EIGHT", "--set", "zupt.std=-1"], "parameter 'zupt.std' is -1"),
+    ],
+)
+def test_what_cannot_be_used_is_a_sentence_and_exit_code_2(
+    six, bags, tmp_path, monkeypatch, capsys, arguments, sentence
+):
+    monkeypatch.chdir(tmp_path)
+    names = {"SIX": six, "ONE": six[:1], "EIGHT": [bags["eight"]]}
+    given = [each for word in arguments for each in names.get(word, [word])]
+    assert main(["calibrate", *given]) == 2
+    captured = capsys.readouterr()
+    assert sentence in captured.err
+    assert captured.out == ""
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_other_file_is_overwritten(six, bags, tmp_path, capsys):
+    mine = tmp_path / "mine.yaml"
+    mine.write_text("mine: true\n")
+    assert main(["calibrate", "accelerometer", *six, "-o", str(mine)]) == 2
+    assert "unknown key 'mine'" in capsys.readouterr().err
+    assert main(["calibrate", "spacing", bags["eight"], "-o", str(mine)]) == 2
+    assert "exists already" in capsys.readouterr().err
+    assert mine.read_text() == "mine: true\n"
+
+
+@pytest.mark.parametrize("what", ["accelerometer", "gyro", "spacing"])
+def test_every_kind_has_help_with_examples(what, capsys):
+    with pytest.raises(SystemExit) as stopped:
+        main(["calibrate", what, "--help"])
+    assert stopped.value.code == 0
+    assert f"dualfoot calibrate {what}" in capsys.readouterr().out
+
+
+def test_without_a_kind_the_kinds_are_named(capsys):
+    with pytest.raises(SystemExit) as stopped:
+        main(["calibrate"])
+    assert stopped.value.code == 2
+    assert "WHAT" in capsys.readouterr().err
+
+
+def test_the_command_as_a_process_gives_json_on_standard_output_only(dualfoot, six):
+    done = dualfoot("calibrate", "accelerometer", *six, "--json")
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["sensor"]["model"] == "scale"
+    assert done.stderr == ""
+
+
+def test_the_real_set_is_calibrated_as_a_user_would(dualfoot, dual_feet, tmp_path):
+    paths = sorted((dual_feet / "calibration").glob("A*.csv"))
+    done = dualfoot("calibrate", "accelerometer", *paths, "-o", tmp_path / "right.yaml")
+    assert done.returncode == 0
+    assert "RMS residual 0.0332 before" in done.stdout
+    bias = Calibration.load(tmp_path / "right.yaml").sensors["sensor"].accelerometer.bias
+    assert np.allclose(bias, [-0.0172, 0.0347, -0.0153], atol=5e-4)

@@ -14,6 +14,8 @@ import numpy as np
 from .config import Alignment
 from .series import FloatArray
 
+WINDOWS = 80  # the newest that are kept, a minute of standing
+
 
 @dataclass(frozen=True)
 class FootStandstill:
@@ -96,6 +98,7 @@ class Standstill:
         self.complaint = window.complaint(self._config, self._gravity)
         if self.complaint is None:
             self._windows.append(window)
+            del self._windows[:-WINDOWS]
             return True
         if restart:
             self.restarts += bool(self._windows)

@@ -162,7 +162,9 @@ class Headings:
         for foot, known in enumerate(self._reference):
             if known is not None:
                 self._reference[foot] = (about_z(by) @ known[0], known[1] + by)
-        return [turn(self._space, engine, f, by, middle, shift, stamp) for f in range(2)]
+        return [
+            turn(self._space, engine, f, by, middle, shift, stamp, joint=True) for f in range(2)
+        ]
 
     def _rotation(self, foot: int) -> FloatArray:
         start = foot * at.FOOT + at.ROT
@@ -177,8 +179,12 @@ def turn(
     pivot: FloatArray,
     shift: FloatArray,
     stamp: int,
+    joint: bool = False,
 ) -> Event:
-    """Turn a foot's state and snapshots by ``yaw`` about ``pivot`` (3,), then ``shift`` (3,)."""
+    """Turn a foot's state and snapshots by ``yaw`` about ``pivot`` (3,), then ``shift`` (3,).
+
+    ``joint`` says that the other foot turns with it.
+    """
     c, s = math.cos(yaw), math.sin(yaw)
     for start in space.states():
         engine.turn(space.w, start, foot, c, s, pivot, shift)
@@ -186,6 +192,7 @@ def turn(
         "yaw": yaw,
         "pivot": (float(pivot[0]), float(pivot[1]), 0.0),
         "shift": tuple(float(v) for v in shift),
+        "joint": joint,
     }
     return Event(EventKind.HEADING, stamp, FEET[foot], stamp, detail=detail)
 

@@ -11,12 +11,10 @@ from .kernel import layout as at
 from .series import FloatArray, IntArray
 from .trajectory import FEET, Event, EventKind, FootTrajectory, Trajectory
 
-UPPER = np.array([0, 1, 2, 1, 3, 4, 2, 4, 5])
 
-
-def full_symmetric(upper: FloatArray) -> FloatArray:
-    """Return the symmetric (..., 3, 3) of upper triangles (..., 6)."""
-    return upper[..., UPPER].reshape(*upper.shape[:-1], 3, 3)
+def matrices(cells: FloatArray) -> FloatArray:
+    """Return cells (..., 9) as matrices (..., 3, 3), without a copy."""
+    return cells.reshape(*cells.shape[:-1], 3, 3)
 
 
 def zupt_event(row: FloatArray, foot: int, stamp_ns: int) -> Event | None:
@@ -39,7 +37,8 @@ def turn_rows(rows: FloatArray, event: Event) -> None:
     """Turn and move one foot's part of ``rows`` (N, OUT) in place, as a HEADING event says.
 
     Until both headings are known the feet are uncorrelated, so that the covariance of the
-    separation changes as the foot's own does.
+    separation changes as the foot's own does; when both feet turn together (``joint``), it turns
+    as a whole, with the left one.
     """
     yaw, foot = event.detail["yaw"], FEET.index(event.foot)
     c, s = math.cos(yaw), math.sin(yaw)
@@ -50,11 +49,17 @@ def turn_rows(rows: FloatArray, event: Event) -> None:
     position[:] = (position - pivot) @ turn.T + pivot + shift
     velocity[:] = velocity @ turn.T
     _turn_quaternions(part[:, at.O_QUAT : at.O_QUAT + 4], yaw)
-    rows[:, at.O_RELATIVE : at.O_RELATIVE + 6] -= part[:, at.O_COV_POS : at.O_COV_POS + 6]
+    relative = rows[:, at.O_RELATIVE : at.O_RELATIVE + 9]
+    own = part[:, at.O_COV_POS : at.O_COV_POS + 9]
+    joint = bool(event.detail.get("joint", False))
+    if not joint:
+        relative -= own
     for start in (at.O_COV_POS, at.O_COV_VEL, at.O_COV_ATT, at.O_ZUPT + 3):
-        size = 9 if start == at.O_ZUPT + 3 else 6
-        _turn_covariances(part[:, start : start + size], turn)
-    rows[:, at.O_RELATIVE : at.O_RELATIVE + 6] += part[:, at.O_COV_POS : at.O_COV_POS + 6]
+        _turn_covariances(part[:, start : start + 9], turn)
+    if not joint:
+        relative += own
+    elif foot == 0:
+        _turn_covariances(relative, turn)
     part[:, at.O_ZUPT : at.O_ZUPT + 3] = part[:, at.O_ZUPT : at.O_ZUPT + 3] @ turn.T
 
 
@@ -66,11 +71,7 @@ def _turn_quaternions(quaternions: FloatArray, yaw: float) -> None:
 
 
 def _turn_covariances(cells: FloatArray, turn: FloatArray) -> None:
-    if cells.shape[1] == 9:
-        cells[:] = (turn @ cells.reshape(-1, 3, 3) @ turn.T).reshape(-1, 9)
-    else:
-        full = turn @ full_symmetric(cells) @ turn.T
-        cells[:] = full[:, [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]]
+    matrices(cells)[:] = turn @ matrices(cells) @ turn.T
 
 
 def clean_stance(stamps: IntArray, events: Iterable[Event], foot: int) -> np.ndarray:
@@ -109,12 +110,12 @@ def to_trajectory(
                 part[:, at.O_VEL : at.O_VEL + 3],
                 part[:, at.O_QUAT : at.O_QUAT + 4],
                 clean_stance(stamps, events, foot),
-                full_symmetric(part[:, at.O_COV_POS : at.O_COV_POS + 6]),
-                full_symmetric(part[:, at.O_COV_VEL : at.O_COV_VEL + 6]),
-                full_symmetric(part[:, at.O_COV_ATT : at.O_COV_ATT + 6]),
+                matrices(part[:, at.O_COV_POS : at.O_COV_POS + 9]),
+                matrices(part[:, at.O_COV_VEL : at.O_COV_VEL + 9]),
+                matrices(part[:, at.O_COV_ATT : at.O_COV_ATT + 9]),
             )
         )
-    relative = full_symmetric(rows[:, at.O_RELATIVE : at.O_RELATIVE + 6])
+    relative = matrices(rows[:, at.O_RELATIVE : at.O_RELATIVE + 9])
     start = int(stamps[0]) if len(stamps) else 0
     nis = zupt_nis(rows)
     return Trajectory(feet[0], feet[1], relative, events, dict(counters), start, method, nis)

@@ -26,6 +26,7 @@ from .trajectory import FEET, Event, EventKind
 from .workspace import Workspace
 
 Found = list[Event]
+ACTIONS = 16  # constraints kept before those that no roll-back can reach are dropped
 
 
 class Session:
@@ -256,7 +257,7 @@ class Session:
             method.note(outcome)
             if outcome.accepted:
                 self._actions.append((request.epoch if request.roll_back else now, request.apply))
-        if len(self._actions) > 4 * space.ring:
+        if len(self._actions) > ACTIONS:
             self._actions = [a for a in self._actions if a[0] >= space.oldest]
         return [self._event(foot, *pair) for pair in zip(requests, outcomes, strict=True)]
 

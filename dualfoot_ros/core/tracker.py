@@ -25,6 +25,7 @@ LIMIT = 500.0  # m/s^2 and rad/s; no foot-mounted sensor reads more
 MAX_GAP_NS = 200_000_000  # a longer gap is bridged, not integrated
 RATES_HZ = (5.0, 5000.0)  # beyond these the stamps are wrong, and memory must stay bounded
 TIME_JUMP_NS = 1_000_000_000  # further back than this is a new recording, not disorder
+FAR_AHEAD_NS = 10_000_000_000  # further ahead is believed only when the next stamp agrees
 
 
 class DualFootTracker:
@@ -57,6 +58,7 @@ class DualFootTracker:
         self._standstill: Standstill | None = None
         self._session: Session | None = None
         self._last_ns: int | None = None
+        self._ahead_ns: int | None = None
         self._early: list[tuple[int, FloatArray]] = []
         self._pending: list[Event] = []
         aids = self.config.aids
@@ -154,14 +156,25 @@ class DualFootTracker:
         for value in values.tolist():
             if not -LIMIT < value < LIMIT:
                 return "out_of_range" if math.isfinite(value) else "not_finite"
-        if self._last_ns is None or stamp > self._last_ns:
+        if self._last_ns is None:
             return None
+        if stamp > self._last_ns:
+            return self._too_far_ahead(stamp)
         if stamp == self._last_ns:
             return "duplicate"
         if self._last_ns - stamp < TIME_JUMP_NS:
             return "out_of_order"
         self.reset(stamp, "time jumped back")
         return None
+
+    def _too_far_ahead(self, stamp: int) -> str | None:
+        """Refuse one stamp far in the future; a second one after it shows that time did go on."""
+        ahead, self._ahead_ns = self._ahead_ns, None
+        last = self._last_ns if self._last_ns is not None else stamp
+        if stamp - last <= FAR_AHEAD_NS or (ahead and 0 < stamp - ahead <= MAX_GAP_NS):
+            return None
+        self._ahead_ns = stamp
+        return "far_ahead"
 
     def _poll_engine(self) -> None:
         ready = self._background.poll() if self._background else None
@@ -216,7 +229,7 @@ class DualFootTracker:
             row=row,
             events=(*events, *found),
             blocks=session.space.blocks(),
-            heading=session.headings.mean,
+            headings=session.headings.feet,
         )
 
     def _apply_pose(self, session: Session, stamp: int) -> list[Event]:
@@ -292,6 +305,9 @@ class DualFootTracker:
                 out[k], kept[k] = update.row, True
             _note(out, k, update.announced, events)
             k += 1
+        first = int(np.argmax(kept)) if kept.any() else count
+        if kept[first:].all():
+            return stamps[first:], out[first:], events
         return stamps[kept], out[kept], events
 
 
@@ -315,7 +331,9 @@ def regular_samples(stamps: IntArray, values: FloatArray) -> np.ndarray:
     taken = good.copy()
     taken[1:] &= stamps[1:] > latest[:-1]
     regular = np.zeros(count, dtype=bool)
-    regular[1:] = taken[1:] & taken[:-1] & (np.diff(stamps) <= MAX_GAP_NS)
+    steps = np.diff(stamps)
+    regular[1:] = taken[1:] & taken[:-1] & (steps <= MAX_GAP_NS)
+    regular[2:] &= steps[:-1] <= FAR_AHEAD_NS
     return regular
 
 

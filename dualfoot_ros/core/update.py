@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .heading import mean_angle
 from .kernel import layout as at
-from .rows import full_symmetric, zupt_event
+from .rows import matrices, zupt_event
 from .series import FloatArray
 from .trajectory import Event
 from .workspace import joint_covariance
@@ -59,7 +60,7 @@ class FootEstimate:
 
     def twist_covariance(self) -> FloatArray:
         """Return the covariance (3, 3) of the velocity in the navigation frame, (m/s)^2."""
-        return full_symmetric(self.row[at.O_COV_VEL : at.O_COV_VEL + 6])
+        return matrices(self.row[at.O_COV_VEL : at.O_COV_VEL + 9])
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ class Update:
     a value: nothing of it changes with the pairs that follow.
     """
 
-    __slots__ = ("_blocks", "_heading", "_noted", "phase", "refused", "row", "stamp_ns")
+    __slots__ = ("_blocks", "_headings", "_noted", "phase", "refused", "row", "stamp_ns")
 
     def __init__(
         self,
@@ -95,11 +96,11 @@ class Update:
         row: FloatArray | None = None,
         events: tuple[Event, ...] = (),
         blocks: FloatArray | None = None,
-        heading: float = 0.0,
+        headings: tuple[float, float] = (0.0, 0.0),
     ) -> None:
         """Keep what was computed; ``blocks`` is the covariance as `Workspace.blocks` gives it."""
         self.stamp_ns, self.phase, self.refused, self.row = stamp_ns, phase, refused, row
-        self._noted, self._blocks, self._heading = events, blocks, heading
+        self._noted, self._blocks, self._headings = events, blocks, headings
 
     @property
     def events(self) -> tuple[Event, ...]:
@@ -145,7 +146,7 @@ class Update:
         return PedestrianEstimate(
             0.5 * (left[at.O_POS : at.O_POS + 3] + right[at.O_POS : at.O_POS + 3]),
             0.5 * (left[at.O_VEL : at.O_VEL + 3] + right[at.O_VEL : at.O_VEL + 3]),
-            self._heading,
+            mean_angle(*self._headings),
             covariance[:6, :6],
             covariance[6:, 6:],
         )

@@ -18,7 +18,6 @@ from . import events, qos
 from .messages import pose_of, rotation_matrix, to_ns
 
 DEPTH = 5000
-UPPER = ([0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2])
 
 
 class CollectorNode(Node):
@@ -75,11 +74,11 @@ def fill_row(row: FloatArray, messages: Mapping[str, Odometry]) -> None:
         part[at.O_VEL : at.O_VEL + 3] = to_nav @ np.array([linear.x, linear.y, linear.z])
         pose = message.pose.covariance.reshape(6, 6)
         twist = to_nav @ message.twist.covariance.reshape(6, 6)[:3, :3] @ to_nav.T
-        part[at.O_COV_POS : at.O_COV_POS + 6] = pose[:3, :3][UPPER]
-        part[at.O_COV_ATT : at.O_COV_ATT + 6] = pose[3:, 3:][UPPER]
-        part[at.O_COV_VEL : at.O_COV_VEL + 6] = twist[UPPER]
+        part[at.O_COV_POS : at.O_COV_POS + 9] = pose[:3, :3].ravel()
+        part[at.O_COV_ATT : at.O_COV_ATT + 9] = pose[3:, 3:].ravel()
+        part[at.O_COV_VEL : at.O_COV_VEL + 9] = twist.ravel()
         covariances.append(pose[:3, :3])
     # The person is the mean of the feet, so sum and difference of their errors tell each other.
     middle = messages["person"].pose.covariance.reshape(6, 6)[:3, :3]
     relative = 2.0 * (covariances[0] + covariances[1]) - 4.0 * middle
-    row[at.O_RELATIVE : at.O_RELATIVE + 6] = relative[UPPER]
+    row[at.O_RELATIVE : at.O_RELATIVE + 9] = relative.ravel()

@@ -58,7 +58,7 @@ def same_bits(followed: Followed, result: Trajectory) -> None:
         assert part[:, at.O_POS : at.O_POS + 3].tobytes() == track.position.tobytes()
         assert part[:, at.O_VEL : at.O_VEL + 3].tobytes() == track.velocity.tobytes()
         assert part[:, at.O_QUAT : at.O_QUAT + 4].tobytes() == track.quaternion.tobytes()
-        diagonal = part[:, [at.O_COV_POS + i for i in (0, 3, 5)]]
+        diagonal = part[:, [at.O_COV_POS + i for i in (0, 4, 8)]]
         found = np.diagonal(track.position_covariance, axis1=1, axis2=2)
         assert np.array_equal(diagonal, found)
     assert [key(e) for e in followed.events] == [key(e) for e in result.events]

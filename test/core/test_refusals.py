@@ -106,7 +106,7 @@ steps = st.integers(-2_000_000_000, 2_000_000_000)
 
 def total(tracker: DualFootTracker, stamp: int, numbers: list[float]) -> None:
     """Add one pair and check that what comes back is an update and every pair is counted."""
-    names = ("not_finite", "out_of_range", "duplicate", "out_of_order", "pairs")
+    names = ("not_finite", "out_of_range", "duplicate", "out_of_order", "far_ahead", "pairs")
     before = sum(tracker.counters[name] for name in names)
     update = tracker.add(ImuPair(stamp, np.array(numbers)))
     assert isinstance(update, Update)
@@ -170,7 +170,10 @@ def test_a_day_without_data_leaves_finite_numbers_and_a_filter_that_goes_on():
     for pair in pairs:
         tracker.add(pair)
     late = 86_400 * 10**9
-    for pair in pairs:
+    first, *others = pairs
+    refused = tracker.add(ImuPair(first.stamp_ns + late, first.values)).refused
+    assert refused == "far_ahead"  # until another stamp says the same
+    for pair in others:
         update = tracker.add(ImuPair(pair.stamp_ns + late, pair.values))
         assert np.isfinite(update.row).all()
     eigenvalues = np.linalg.eigvalsh(update.left.pose_covariance())

@@ -68,11 +68,12 @@ class AtMinimumDistance(Method):
         moment = self.moment(stance, gait)
         if moment is None:
             return ()
-        constrain = partial(self.apply, target=self.spacing.value_m, heading=stance.heading)
-        if self.config.apply_at == "moment":
-            return (Request(moment, True, constrain),)
+        target = self.spacing.value_m
+        constrain = partial(self.apply, target=target, heading=stance.heading)
         left, right = gait.positions_after(moment)
         separation = [float(x) for x in left - right]
+        if self.config.apply_at == "moment" and norm(separation) > target:
+            return (Request(moment, True, constrain),)
         return (Request(moment, False, partial(constrain, separation=separation)),)
 
     def note(self, outcome: Outcome) -> None:

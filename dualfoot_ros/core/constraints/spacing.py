@@ -52,15 +52,18 @@ class SpacingLearner:
         """Take one passing: separations (2,) m before and after its constraint, heading in rad."""
         self._free = before.copy() if self._free is None else self._free + before - self._after
         self._after = after.copy()
-        left = np.array([-math.sin(heading), math.cos(heading)])
-        h = np.column_stack([left, np.eye(2)])
-        along = np.array([left[1], -left[0]])
-        noise = ACROSS_STD_M**2 * np.outer(left, left) + ALONG_STD_M**2 * np.outer(along, along)
-        self._p[1:, 1:] += WANDER_STD_M**2 * np.eye(2)
-        s = h @ self._p @ h.T + noise
-        gain = self._p @ h.T @ np.linalg.inv(s)
-        self._x = self._x + gain @ (self._free - h @ self._x)
-        self._p = self._p - gain @ s @ gain.T
+        c, s = math.cos(heading), math.sin(heading)
+        x, y = float(self._free[0]), float(self._free[1])
+        self._p[1, 1] += WANDER_STD_M**2
+        self._p[2, 2] += WANDER_STD_M**2
+        self._observe(np.array([1.0, -s, c]), c * y - s * x, ACROSS_STD_M**2)
+        self._observe(np.array([0.0, c, s]), c * x + s * y, ALONG_STD_M**2)
+
+    def _observe(self, row: FloatArray, value: float, variance: float) -> None:
+        cross = self._p @ row
+        gain = cross / (float(row @ cross) + variance)
+        self._x += gain * (value - float(row @ self._x))
+        self._p -= np.outer(gain, cross)
 
     def restart(self) -> None:
         """Keep the spacing but forget the placement: the track was turned or moved."""

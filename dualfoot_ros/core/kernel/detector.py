@@ -57,8 +57,10 @@ def glrt(w, n, foot):
     mz = 0.0
     force = 0.0
     rate = 0.0
-    for k in range(count):
-        s = RINGS + SAMPLE * ((n[N_EPOCH] - k) % ring) + 1 + 6 * foot
+    i = n[N_EPOCH] % ring
+    for _ in range(count):
+        s = RINGS + SAMPLE * i + 1 + 6 * foot
+        i = i - 1 if i > 0 else ring - 1
         fx = w[s]
         fy = w[s + 1]
         fz = w[s + 2]

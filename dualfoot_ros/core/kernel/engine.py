@@ -119,13 +119,23 @@ def cache_directory() -> Path:
 
     ``DUALFOOT_CACHE_DIR`` overrides the user's cache directory.
     """
-    text = b"".join(Path(m.__file__).read_bytes() for m in (layout, *MODULES) if m.__file__)
-    key = hashlib.sha256(text + f"{sys.version} {_numba_version()}".encode()).hexdigest()[:16]
+    text = f"{_loaded_code()} {sys.version} {_numba_version()}"
+    key = hashlib.sha256(text.encode()).hexdigest()[:16]
     home = os.environ.get("XDG_CACHE_HOME") or str(Path("~/.cache").expanduser())
     base = Path(os.environ.get("DUALFOOT_CACHE_DIR") or Path(home) / "dualfoot_ros")
     directory = base / f"kernel-{key}"
     directory.mkdir(parents=True, exist_ok=True)
     return directory
+
+
+def _loaded_code() -> str:
+    """Return all that the compiled form depends on, as it was loaded (files may have changed)."""
+    codes = [
+        (name, f.__code__.co_code.hex(), f.__code__.co_consts, f.__code__.co_names)
+        for name, f in sorted(_functions().items())
+    ]
+    offsets = sorted((k, v) for k, v in vars(layout).items() if isinstance(v, int))
+    return repr((codes, offsets))
 
 
 def _numba_version() -> str:

@@ -176,25 +176,21 @@ def emit(w, n, out, k):
         out[k, o + O_STANCE] = (flags >> foot) & 1
         quaternion(w, s + ROT, out, k, o + O_QUAT)
         block = PLL if foot == 0 else PRR
-        m = 0
         for i in range(3):
-            for j in range(i, 3):
+            for j in range(3):
+                m = 3 * i + j
                 out[k, o + O_COV_POS + m] = w[block + ROW * i + j]
                 out[k, o + O_COV_VEL + m] = w[block + ROW * (3 + i) + 3 + j]
                 out[k, o + O_COV_ATT + m] = w[block + ROW * (6 + i) + 6 + j]
-                m += 1
         for i in range(ZUPT_INFO):
             out[k, o + O_ZUPT + i] = w[Z_LEFT + foot * ZUPT_INFO + i]
-    m = 0
     for i in range(3):
-        for j in range(i, 3):
-            out[k, O_RELATIVE + m] = (
+        for j in range(3):
+            out[k, O_RELATIVE + 3 * i + j] = (
                 w[PLL + ROW * i + j]
                 + w[PRR + ROW * i + j]
-                - w[PLR + ROW * i + j]
-                - w[PLR + ROW * j + i]
+                - (w[PLR + ROW * i + j] + w[PLR + ROW * j + i])
             )
-            m += 1
 
 
 def quaternion(w, r, out, k, o):

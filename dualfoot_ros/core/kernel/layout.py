@@ -95,18 +95,18 @@ NOTICE_SHIFT = 4
 NOTICE_WATCH = 256  # the feet are farther apart than the method allows
 
 # --- output row ----------------------------------------------------------------------------------
-O_FOOT = 45  # stride from left to right
+O_FOOT = 54  # stride from left to right
 O_POS = 0
 O_VEL = 3
 O_QUAT = 6
 O_STANCE = 10
 O_RATE = 11
-O_COV_POS = 14  # upper triangle, 6
-O_COV_VEL = 20
-O_COV_ATT = 26
-O_ZUPT = 32  # innovation 3, S 9, NIS
-O_RELATIVE = 2 * O_FOOT  # upper triangle of the covariance of left minus right position
-OUT = O_RELATIVE + 6
+O_COV_POS = 14  # 3x3 each
+O_COV_VEL = 23
+O_COV_ATT = 32
+O_ZUPT = 41  # innovation 3, S 9, NIS
+O_RELATIVE = 2 * O_FOOT  # covariance of left minus right position, 3x3
+OUT = O_RELATIVE + 9
 
 
 def workspace_size(ring: int) -> int:

@@ -70,8 +70,13 @@ def test_moments_are_at_least_the_interval_apart():
 
 
 def test_the_request_is_about_the_moment_itself():
-    requests = method(distance=0.15).on_stance_end(stance(0, FIRST, LAST), passing(33.0))
+    requests = method(distance=0.01).on_stance_end(stance(0, FIRST, LAST), passing(33.0))
     assert [(r.epoch, r.roll_back) for r in requests] == [(33, True)]
+
+
+def test_feet_that_are_near_enough_need_no_roll_back():
+    requests = method(distance=1.0).on_stance_end(stance(0, FIRST, LAST), passing(33.0))
+    assert [(r.epoch, r.roll_back) for r in requests] == [(33, False)]
 
 
 @given(st.integers(0, 1000))

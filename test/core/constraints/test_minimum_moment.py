@@ -48,7 +48,9 @@ def test_a_greater_kappa_is_never_an_earlier_moment(first, length, a, b):
 
 @pytest.mark.parametrize("foot", (0, 1))
 def test_at_the_moment_itself_the_filter_is_rolled_back_to_it(foot):
-    requests = method(kappa=0.6).on_stance_end(stance(foot, 40, 70), standing(foot, 40, 70))
+    gait = standing(foot, 40, 70)
+    gait.positions[58, 0] = [0.3, 0.0, 0.0]
+    requests = method(kappa=0.6).on_stance_end(stance(foot, 40, 70), gait)
     assert [(r.epoch, r.roll_back) for r in requests] == [(58, True)]
 
 

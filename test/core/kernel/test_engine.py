@@ -112,9 +112,19 @@ def test_the_cache_is_another_one_for_another_source_of_the_kernel(tmp_path, mon
     here = cache_directory()
     from dualfoot_ros.core.kernel import engine
 
-    original = Path.read_bytes
-    monkeypatch.setattr(Path, "read_bytes", lambda self: original(self) + b"# changed")
-    assert engine.cache_directory() != here
+    monkeypatch.setattr(engine.layout, "O_STANCE", engine.layout.O_STANCE + 1)
+    moved = engine.cache_directory()
+    monkeypatch.setattr(engine.turn, "symmetrise", other_source := _renamed(engine.turn.turn_rows))
+    assert other_source.__module__ == engine.turn.__name__
+    assert len({here, moved, engine.cache_directory()}) == 3
+
+
+def _renamed(function):
+    """Return a kernel function under another's name, as an edit would put it there."""
+    code = function.__code__.replace(co_name="symmetrise")
+    renamed = type(function)(code, function.__globals__, "symmetrise")
+    renamed.__module__ = function.__module__
+    return renamed
 
 
 def test_an_engine_has_every_entry():

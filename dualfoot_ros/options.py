@@ -62,6 +62,11 @@ class FusionOptions(Parameters):
         "form of the kernel; auto starts at once and goes over to the compiled form",
         choices=("auto", "compiled", "interpreted"),
     )
+    calibration: str = parameter(
+        "",
+        "file of 'dualfoot calibrate' for samples that imu_adapter has not corrected already "
+        "(empty: none)",
+    )
 
 
 @dataclass(frozen=True)
@@ -88,6 +93,11 @@ class AdapterOptions(Parameters):
         "header",
         "stamp of a sample: as received, or the time it arrived",
         choices=("header", "arrival"),
+    )
+    calibration: str = parameter(
+        "",
+        "file of 'dualfoot calibrate', in the axes of the source (empty: none); the foot is that "
+        "of the namespace",
     )
 
 

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from sensor_msgs.msg import Imu
 
+from ..calibration import SensorCalibration
 from ..core.series import FloatArray
 from ..options import Covariance, Mounting, Units
 
@@ -15,9 +16,16 @@ SCALES = {"m/s^2": 1.0, "g": STANDARD_GRAVITY, "rad/s": 1.0, "deg/s": math.pi / 
 
 
 class Conversion:
-    """Rotates and scales samples, and their covariances."""
+    """Scales, corrects and rotates samples, and their covariances."""
 
-    def __init__(self, mounting: Mounting, units: Units, covariance: Covariance) -> None:
+    def __init__(
+        self,
+        mounting: Mounting,
+        units: Units,
+        covariance: Covariance,
+        calibration: SensorCalibration | None = None,
+    ) -> None:
+        """Correct by ``calibration``, which is in SI units and in the axes of the sensor."""
         self._rotation = mounting_rotation(mounting)
         self._force = SCALES[units.specific_force]
         self._rate = SCALES[units.angular_rate]
@@ -26,14 +34,18 @@ class Conversion:
             covariance.angular_rate_std,
         )
         plain = np.array_equal(self._rotation, np.eye(3))
-        self._unchanged = plain and self._force == 1.0 and self._rate == 1.0
+        self._calibration = calibration
+        self._same_axes = plain and self._force == 1.0 and self._rate == 1.0
+        self._unchanged = self._same_axes and calibration is None
 
     def values(self, values: FloatArray) -> FloatArray:
         """Return specific force and angular rate (6,) in m/s^2 and rad/s, forward-left-up."""
         if self._unchanged:
             return values
-        force = self._rotation @ (self._force * values[:3])
-        return np.concatenate([force, self._rotation @ (self._rate * values[3:])])
+        sensed = np.concatenate([self._force * values[:3], self._rate * values[3:]])
+        if self._calibration is not None:
+            sensed = self._calibration.values(sensed)
+        return np.concatenate([self._rotation @ sensed[:3], self._rotation @ sensed[3:]])
 
     def describe(self, message: Imu) -> None:
         """Bring covariances and orientation of ``message`` to the new axes and units.
@@ -46,13 +58,13 @@ class Conversion:
         message.angular_velocity_covariance = self._covariance(
             message.angular_velocity_covariance, self._rate, self._rate_std
         )
-        if not self._unchanged:
+        if not self._same_axes:
             message.orientation_covariance[0] = -1.0
 
     def _covariance(self, received: FloatArray, scale: float, std: float) -> FloatArray:
         if std > 0.0:
             return (std * std * np.eye(3)).ravel()
-        if self._unchanged or received[0] < 0.0:
+        if self._same_axes or received[0] < 0.0:
             return received
         turned = self._rotation @ received.reshape(3, 3) @ self._rotation.T
         return (scale * scale * turned).ravel()

@@ -10,6 +10,7 @@ from rclpy.node import Node
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
+from ..calibration import for_feet
 from ..core import DualFootTracker, ImuPair, TrackerConfig
 from ..core.config import all_specs
 from ..core.trajectory import FEET
@@ -45,7 +46,15 @@ class FusionNode(Node):
     """Aligns the streams, feeds the tracker, publishes what it says."""
 
     def __init__(self, **options: Any) -> None:
-        """Take the options of :class:`rclpy.node.Node`; raise ConfigError for bad parameters."""
+        """Take the options of :class:`rclpy.node.Node`.
+
+        Raises
+        ------
+        ConfigError
+            For bad parameters.
+        CalibrationError
+            When the calibration file cannot be used.
+        """
         super().__init__("fusion", **options)
         values = declare(self, [*node_specs("fusion"), *all_specs()])
         own = group(FusionOptions, values)
@@ -56,6 +65,7 @@ class FusionNode(Node):
         self.aligner = Aligner(group(Sync, values, "aligner."))
         path = group(PathOptions, values, "path.")
         self.outputs = Outputs(self, frames, path, config.noise.gyro, own.publish_tf)
+        self._calibration = for_feet([own.calibration] if own.calibration else [])
         self._listen(group(InputOptions, values, "input."), own.sync)
         self._obey(frames.odom)
         self.health = Health(self, own.sync)
@@ -88,8 +98,12 @@ class FusionNode(Node):
         )
 
     def _receiver(self, foot: str) -> Any:
+        calibration = self._calibration.get(foot)
+
         def receive(message: Imu) -> None:
             values = imu_values(message)
+            if calibration is not None:
+                values = calibration.values(values)
             self.suspicions[foot].look(values.tolist())
             for pair in self.aligner.push(foot, to_ns(message.header.stamp), values):
                 self._track(pair)

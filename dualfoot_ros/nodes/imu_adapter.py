@@ -10,6 +10,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 from sensor_msgs.msg import Imu
 
+from ..calibration import SensorCalibration, sensor_calibration
 from ..core.series import FloatArray
 from ..core.trajectory import FEET
 from ..options import AdapterOptions, Covariance, Mounting, Play, Reports, Units, node_specs
@@ -32,7 +33,9 @@ PROGRAM = Program(
     "  ros2 run dualfoot_ros imu_adapter --ros-args -r __ns:=/right "
     "-p source:=file://walk.csv -p mounting.yaw:=3.14159\n"
     "  ros2 run dualfoot_ros imu_adapter --ros-args -r __ns:=/left "
-    "-p source:=topic:///imu -p units.specific_force:=g -p units.angular_rate:=deg/s",
+    "-p source:=topic:///imu -p units.specific_force:=g -p units.angular_rate:=deg/s\n"
+    "  ros2 run dualfoot_ros imu_adapter --ros-args -r __ns:=/left "
+    "-p source:=topic:///imu_a/data -p calibration:=both.yaml",
     tuple(node_specs("imu_adapter")),
 )
 
@@ -47,6 +50,8 @@ class ImuAdapterNode(Node):
         ------
         ConfigError
             For bad parameters or a source that names nothing.
+        CalibrationError
+            When the calibration file cannot be used.
         RecordingError
             When the file of the source cannot be read.
         """
@@ -57,6 +62,7 @@ class ImuAdapterNode(Node):
             group(Mounting, values, "mounting."),
             group(Units, values, "units."),
             group(Covariance, values, "covariance."),
+            self._calibration(),
         )
         self.counters = {"relayed": 0, "not_finite": 0}
         self.done: Future = Future()
@@ -87,6 +93,11 @@ class ImuAdapterNode(Node):
             finished=self._finish,
         )
         self.player.start()
+
+    def _calibration(self) -> SensorCalibration | None:
+        if not self._options.calibration:
+            return None
+        return sensor_calibration(self._options.calibration, self._foot())
 
     def _foot(self) -> str:
         if self._options.foot != "auto":

@@ -161,6 +161,13 @@ class Zupt(Parameters):
         minimum=0.0,
         maximum=0.5,
     )
+    lever_back: float = parameter(
+        0.0,
+        "how far the pivot is behind the sensor, along the foot",
+        unit="m",
+        minimum=-0.3,
+        maximum=0.3,
+    )
 
 
 GROUPS: dict[str, type[Parameters]] = {

@@ -118,10 +118,10 @@ class Headings:
         self._strides[foot] = None
         heading = self._forward_at(direction)
         by = heading - direction.angle
-        self._reference[foot] = (
-            about_z(by) @ direction.rotation,
-            heading + 0.5 * direction.turned,
-        )
+        ahead = heading + 0.5 * direction.turned
+        rotation = about_z(by) @ direction.rotation
+        self._reference[foot] = (rotation, ahead)
+        self._space.aim(foot, rotation.T @ np.array([math.cos(ahead), math.sin(ahead), 0.0]))
         turned = turn(self._space, engine, foot, by, direction.pivot, np.zeros(3), stamp)
         self._follow(foot)
         return [turned]

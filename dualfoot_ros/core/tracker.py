@@ -13,6 +13,7 @@ from .alignment import Standstill
 from .config import TrackerConfig
 from .constraints.method import Method
 from .errors import AlignmentError, ConfigError
+from .gate import MAX_GAP_NS, TIME_JUMPED, PairGate, next_irregular, regular_samples
 from .kernel import BackgroundEngine, Engine, compiled, interpreted
 from .kernel import layout as at
 from .rows import to_trajectory, turn_rows
@@ -21,11 +22,7 @@ from .session import Session
 from .trajectory import Event, EventKind, Trajectory
 from .update import Update
 
-LIMIT = 500.0  # m/s^2 and rad/s; no foot-mounted sensor reads more
-MAX_GAP_NS = 200_000_000  # a longer gap is bridged, not integrated
 RATES_HZ = (5.0, 5000.0)  # beyond these the stamps are wrong, and memory must stay bounded
-TIME_JUMP_NS = 1_000_000_000  # further back than this is a new recording, not disorder
-FAR_AHEAD_NS = 10_000_000_000  # further ahead is believed only when the next stamp agrees
 
 
 class DualFootTracker:
@@ -57,8 +54,7 @@ class DualFootTracker:
     def _begin(self) -> None:
         self._standstill: Standstill | None = None
         self._session: Session | None = None
-        self._last_ns: int | None = None
-        self._ahead_ns: int | None = None
+        self._gate = PairGate()
         self._early: list[tuple[int, FloatArray]] = []
         self._pending: list[Event] = []
         aids = self.config.aids
@@ -115,15 +111,16 @@ class DualFootTracker:
     def add(self, pair: ImuPair) -> Update:
         """Take one pair; total: bad data gives a counted, named refusal, never an exception."""
         stamp, values = int(pair.stamp_ns), pair.values
-        refused = self._refusal(stamp, values)
-        if refused is not None:
+        refused = self._gate.refusal(stamp, values)
+        if refused is TIME_JUMPED:
+            self.reset(stamp, "time jumped back")
+        elif refused is not None:
             self.counters[refused] += 1
             return Update(stamp, self.phase, refused=refused, events=self._take_pending())
         self.counters["pairs"] += 1
         if self._background is not None:
             self._poll_engine()
-        dt_ns = 0 if self._last_ns is None else stamp - self._last_ns
-        self._last_ns = stamp
+        dt_ns = self._gate.step(stamp)
         if self._session is None:
             self._align(stamp, values)
             return Update(stamp, "aligning", events=self._take_pending())
@@ -151,30 +148,6 @@ class DualFootTracker:
         refused = self._pressure[worn].add(stamp_ns, pascal) if used else "pressure_unused"
         self.counters[refused or "pressures"] += 1
         return refused
-
-    def _refusal(self, stamp: int, values: FloatArray) -> str | None:
-        for value in values.tolist():
-            if not -LIMIT < value < LIMIT:
-                return "out_of_range" if math.isfinite(value) else "not_finite"
-        if self._last_ns is None:
-            return None
-        if stamp > self._last_ns:
-            return self._too_far_ahead(stamp)
-        if stamp == self._last_ns:
-            return "duplicate"
-        if self._last_ns - stamp < TIME_JUMP_NS:
-            return "out_of_order"
-        self.reset(stamp, "time jumped back")
-        return None
-
-    def _too_far_ahead(self, stamp: int) -> str | None:
-        """Refuse one stamp far in the future; a second one after it shows that time did go on."""
-        ahead, self._ahead_ns = self._ahead_ns, None
-        last = self._last_ns if self._last_ns is not None else stamp
-        if stamp - last <= FAR_AHEAD_NS or (ahead and 0 < stamp - ahead <= MAX_GAP_NS):
-            return None
-        self._ahead_ns = stamp
-        return "far_ahead"
 
     def _poll_engine(self) -> None:
         ready = self._background.poll() if self._background else None
@@ -294,7 +267,7 @@ class DualFootTracker:
                     _note(out, row, found, events)
                 kept[k:stop] = True
                 self.counters["pairs"] += stop - k
-                self._last_ns = int(stamps[stop - 1])
+                self._gate.step(int(stamps[stop - 1]))
                 k = stop
                 continue
             update = self.add(ImuPair(int(stamps[k]), values[k]))
@@ -317,29 +290,3 @@ def _note(out: FloatArray, row: int, found: Sequence[Event], events: list[Event]
         if event.kind is EventKind.HEADING:
             turn_rows(out[:row], event)
     events.extend(found)
-
-
-def regular_samples(stamps: IntArray, values: FloatArray) -> np.ndarray:
-    """Return (N,) bool: samples that `add` would take without a remark, as it did the one before.
-
-    A sample counts as taken when it is later than every good sample before it.  (After time has
-    jumped back that is never so, and the samples go one by one.)
-    """
-    count = len(stamps)
-    good: np.ndarray = np.all(np.abs(values) < LIMIT, axis=1)
-    latest = np.maximum.accumulate(np.where(good, stamps, np.iinfo(np.int64).min))
-    taken = good.copy()
-    taken[1:] &= stamps[1:] > latest[:-1]
-    regular = np.zeros(count, dtype=bool)
-    steps = np.diff(stamps)
-    regular[1:] = taken[1:] & taken[:-1] & (steps <= MAX_GAP_NS)
-    regular[2:] &= steps[:-1] <= FAR_AHEAD_NS
-    return regular
-
-
-def next_irregular(regular: np.ndarray) -> IntArray:
-    """Return (N,) the index of the first irregular sample at or after each (N if none)."""
-    count = len(regular)
-    index = np.where(regular, count, np.arange(count))
-    stops: IntArray = np.minimum.accumulate(index[::-1])[::-1]
-    return stops

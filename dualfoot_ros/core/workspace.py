@@ -26,6 +26,8 @@ class Workspace:
         self.n = np.zeros(at.integer_size(ring), dtype=np.int64)
         self.stamps = np.zeros(ring, dtype=np.int64)
         self.ring = ring
+        self._zupt = config.zupt
+        self._up = [np.array([0.0, 0.0, 1.0])] * 2  # in body axes
         self._set_constants(config)
 
     def _set_constants(self, config: TrackerConfig) -> None:
@@ -100,13 +102,21 @@ class Workspace:
             norm = math.sqrt(float(still.specific_force @ still.specific_force))
             w[o + at.BA : o + at.BA + 3] = rotation[2] * (norm - config.gravity)
             constants = at.C_FOOT + foot * at.C_STRIDE
-            lever = constants + at.C_LEVER
-            w[lever : lever + 3] = -config.zupt.lever_arm * rotation[2]
+            self._up[foot] = rotation[2]
+            self.aim(foot, rotation.T @ np.array([c, s, 0.0]))
             rate = constants + at.C_STILL_RATE
             w[rate : rate + 3] = still.angular_rate
             w[constants + at.C_STILL_NORM] = norm
             self._initial_covariance(config, foot, still.rate_scatter)
         self.n[at.N_OLDEST] = self.n[at.N_EPOCH] + 1
+
+    def aim(self, foot: int, forward: FloatArray) -> None:
+        """Put the pivot of a foot below and behind its sensor; ``forward`` (3,) in body axes."""
+        up = self._up[foot]
+        ahead = forward - up * float(up @ forward)
+        ahead /= math.sqrt(float(ahead @ ahead))
+        lever = at.C_FOOT + foot * at.C_STRIDE + at.C_LEVER
+        self.w[lever : lever + 3] = -self._zupt.lever_arm * up - self._zupt.lever_back * ahead
 
     def _initial_covariance(self, config: TrackerConfig, foot: int, scatter: float) -> None:
         p0 = config.initial

@@ -32,7 +32,7 @@ def next_pair(tracker: DualFootTracker, **changes: float) -> ImuPair:
     values = standing_samples(1).values[0].copy()
     for name, value in changes.items():
         values[int(name[1:])] = value
-    return ImuPair(tracker._last_ns + STEP, values)
+    return ImuPair(tracker._gate.last_ns + STEP, values)
 
 
 @pytest.mark.parametrize(
@@ -61,7 +61,7 @@ def test_a_bad_value_is_refused_by_name_and_counted(value, name, element):
 def test_a_stamp_that_does_not_follow_is_refused_by_name_and_counted(behind_ns, name):
     tracker = aligned_tracker()
     pair = next_pair(tracker)
-    update = tracker.add(ImuPair(tracker._last_ns - behind_ns, pair.values))
+    update = tracker.add(ImuPair(tracker._gate.last_ns - behind_ns, pair.values))
     assert update.refused == name
     assert tracker.counters[name] == 1
     assert tracker.phase == "standing"
@@ -71,8 +71,8 @@ def test_a_refused_pair_leaves_the_estimate_untouched():
     one, other = aligned_tracker(), aligned_tracker()
     good = next_pair(one)
     one.add(next_pair(one, v3=float("nan")))
-    one.add(ImuPair(one._last_ns, good.values))
-    one.add(ImuPair(one._last_ns - 5, good.values))
+    one.add(ImuPair(one._gate.last_ns, good.values))
+    one.add(ImuPair(one._gate.last_ns - 5, good.values))
     assert one.add(good).row.tobytes() == other.add(good).row.tobytes()
 
 
@@ -148,7 +148,7 @@ def test_add_never_raises_at_any_rate(step):
 def test_add_never_raises_for_anything_once_aligned(pairs):
     for engine in ("interpreted", quick_engine().name):
         tracker = aligned_tracker(engine)
-        stamp = tracker._last_ns
+        stamp = tracker._gate.last_ns
         for step, numbers in pairs:
             stamp += step
             total(tracker, stamp, numbers)
@@ -160,7 +160,7 @@ def test_a_violent_recording_within_range_gives_finite_numbers(seed, size):
     tracker, rng = aligned_tracker(), np.random.default_rng(seed)
     for _ in range(300):
         numbers = rng.uniform(-size, size, 12)
-        update = tracker.add(ImuPair(tracker._last_ns + STEP, numbers))
+        update = tracker.add(ImuPair(tracker._gate.last_ns + STEP, numbers))
         assert np.isfinite(update.row).all()
 
 

@@ -28,6 +28,7 @@ from .static import Segment, attitudes
 
 REPEATABILITY = 0.01  # m/s^2, by which one attitude is reproduced at best
 LOWER = (np.array([1, 2, 2]), np.array([0, 0, 1]))
+DOUBTFUL = 0.04  # m/s^2; a fit that leaves more is not of one sensor at rest
 AXES = ("x", "y", "z")
 SIDES = 0.7  # cosine within which an attitude has an axis up or down
 
@@ -69,7 +70,7 @@ class AccelerometerFit:
     bias_std, matrix_std : their standard deviations, from the attitudes and what repeats
     residual_before, residual_after : (K,) m/s^2, norm of the specific force minus gravity
     attitudes : number of different attitudes
-    redundancy : attitudes less parameters; 0 means that the residuals are zero by construction
+    redundancy : attitudes less parameters
     sigma : m/s^2, the misfit of an attitude on which the standard deviations rest
     gravity : m/s^2
     """
@@ -85,6 +86,16 @@ class AccelerometerFit:
     redundancy: int
     sigma: float
     gravity: float
+
+    @property
+    def zero_by_construction(self) -> bool:
+        """Whether there are as many parameters as standstills, so that residuals prove nothing."""
+        return self.redundancy <= 0 and rms(self.residual_after) < 1e-6
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether the standstills do not fit one sensor."""
+        return rms(self.residual_after) > DOUBTFUL
 
     def triad(self) -> Triad:
         """Return what goes into the calibration file."""

@@ -24,7 +24,7 @@ PER_OCTAVE = 4
 SHARE = 1.0 / 9.0  # of the record, the longest time told; its deviation is known to 25 %
 SLOPE_ERROR = 0.15  # a slope counts as that of white noise within this
 FLOOR = math.sqrt(2.0 * math.log(2.0) / math.pi)
-RISE_SIGMAS = 3.0  # the curve must have risen by this after its minimum to show a floor
+ABOVE_SIGMAS = 3.0  # the curve must be above the line of the white noise by this at its end
 LEAST_SAMPLES = 90
 
 
@@ -105,11 +105,10 @@ def slopes_of(curve: AllanCurve, axis: int) -> Slopes:
         return Slopes(None, None, None, None, float(deviation.min()))
     at = int(np.argmin(deviation))
     error = curve.relative_error
-    risen = deviation[at:] - deviation[at] - RISE_SIGMAS * error[at:] * deviation[at:]
-    floor = bool(at > 0 and (risen > 0.0).any())
     slope = _local_slope(tau, deviation)
     falling = (np.abs(slope + 0.5) < SLOPE_ERROR) & (np.arange(len(tau)) <= at)
     white = _mean_log(deviation * np.sqrt(tau), falling, error)
+    floor = white is not None and at > 0 and _flattens(curve, deviation, white)
     return Slopes(
         white=white,
         floor=float(deviation[at]) / FLOOR if floor else None,
@@ -117,6 +116,12 @@ def slopes_of(curve: AllanCurve, axis: int) -> Slopes:
         walk=_walk(curve, deviation) if floor else None,
         lowest=float(deviation[at]),
     )
+
+
+def _flattens(curve: AllanCurve, deviation: FloatArray, white: float) -> bool:
+    """Return whether the end of the curve has left the line of the white noise for certain."""
+    least = deviation[-1] * (1.0 - ABOVE_SIGMAS * curve.relative_error[-1])
+    return bool(least > white / math.sqrt(curve.tau[-1]))
 
 
 def _local_slope(tau: FloatArray, deviation: FloatArray) -> FloatArray:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.series import FloatArray, ImuSeries
 from ..timing import clean
-from .allan import AllanCurve, Slopes, allan_curve, slopes_of
+from .allan import FLOOR, AllanCurve, Slopes, allan_curve, slopes_of
 from .errors import CalibrationError
 from .sensor import TRIADS, Triad
 from .static import Static, no_standstill, still_spans
@@ -68,7 +68,7 @@ class GyroFit:
         """Say what the standstill is too short to show."""
         for triad, axes in self.slopes.items():
             curve = self.curves[triad]
-            end = f"up to {curve.tau[-1]:.3g} s, a ninth of the {curve.duration_s:.3g} s"
+            end = f"up to {curve.tau[-1]:.1f} s, a ninth of the {curve.duration_s:.0f} s"
             if any(s.white is None for s in axes):
                 yield (
                     f"{triad}: no white noise (slope -1/2) is seen on every axis {end}; use a "
@@ -77,9 +77,9 @@ class GyroFit:
             if any(s.floor is None for s in axes):
                 least = max(s.lowest for s in axes)
                 yield (
-                    f"{triad}: no floor is seen {end}, so the standstill is too short for "
-                    f"the bias instability (it is below {least:.3g} {UNITS[triad]}) and the "
-                    "driving noise of the bias; record some hours"
+                    f"{triad}: no floor is seen on every axis {end}, too short for "
+                    f"the bias instability (it is below {least / FLOOR:.3g} {UNITS[triad]}) and "
+                    "the driving noise of the bias; record some hours"
                 )
 
 

@@ -51,10 +51,10 @@ def draw_residuals(
         )
         axis.set_yticks(rows, [s.name for s in segments], fontsize=7)
         axis.set_ylim(-0.7, len(segments) - 0.3)
-        zero = "" if fit.redundancy > 0 else " (zero by construction)"
+        zero = " (zero by construction)" if fit.zero_by_construction else ""
         axis.set_title(f"{name}: {fit.model}, {fit.attitudes} attitudes{zero}", fontsize=9)
         axis.set_xlabel("|specific force| - g (m/s²)")
-        axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.28), ncols=2)
+        axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=2)
     figure.suptitle("accelerometer at rest", fontsize=11)
     return save(figure, path)
 
@@ -66,7 +66,7 @@ def draw_allan(fits: Mapping[str, GyroFit], path: Path) -> Path:
         for axis, (triad, curve) in zip(row, fit.curves.items(), strict=True):
             _curves(axis, curve)
             _slopes(axis, curve, fit.slopes[triad])
-            axis.set_title(f"{name}: {triad}, {curve.duration_s:.3g} s at rest", fontsize=10)
+            axis.set_title(f"{name}: {triad}, {curve.duration_s:.0f} s at rest", fontsize=10)
             axis.set_xlabel("averaging time (s)")
             axis.set_ylabel(f"Allan deviation ({UNITS[triad]})")
             axis.legend(fontsize=8)

@@ -70,6 +70,12 @@ def run(args: argparse.Namespace) -> int:
     lines = [line for name, parts in found.items() for line in _words(name, *parts)]
     facts = {name: _facts(*parts) for name, parts in found.items()}
     common.show(args, {**facts, "files": [str(f) for f in files]}, [*lines, *map(str, files)])
+    for name, (fit, _, _) in found.items():
+        if fit.doubtful:
+            common.warn(
+                f"{name}: the residuals are large; were all recordings of the same sensor, was it "
+                "still, and is --gravity right?"
+            )
     return 0
 
 
@@ -122,7 +128,7 @@ def _words(
 
 
 def _why_zero(fit: AccelerometerFit) -> str:
-    if fit.redundancy > 0:
+    if not fit.zero_by_construction:
         return ""
     return (
         f" (zero by construction: {fit.attitudes} attitudes for as many parameters, so it "

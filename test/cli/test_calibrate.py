@@ -61,6 +61,17 @@ def test_six_exports_become_a_calibration_file_with_a_figure_beside_it(six, tmp_
     }
 
 
+def test_recordings_of_two_sensors_for_one_are_doubted(six, tmp_path, capsys):
+    others = [
+        str(export(tmp_path / f"{k}.csv", resting(up, bias=(-0.2, 0.1, 0.0), seed=k)))
+        for k, up in enumerate(SIX)
+    ]
+    assert main(["calibrate", "accelerometer", *six, *others]) == 0
+    captured = capsys.readouterr()
+    assert "were all recordings of the same sensor" in captured.err
+    assert "proves nothing" not in captured.out
+
+
 def test_a_file_that_is_there_is_added_to(six, tmp_path, capsys):
     target = str(tmp_path / "both.yaml")
     common = ["-o", target, "--no-plots"]

@@ -9,7 +9,9 @@ COLUMNS = "PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z"
 
 
 def export(path, start_us=0, count=300):
-    rows = [f"{k},{start_us + k * 16667},0.1,0.2,9.8,0.5,-0.5,1.0" for k in range(count)]
+    rows = [  # with some noise, or the sensor would be called stuck
+        f"{k},{start_us + k * 16667},0.1,0.2,9.8{k % 7},0.5,-0.5,1.0{k % 5}" for k in range(count)
+    ]
     path.write_text("DeviceTag:,A\n\n" + "\n".join([COLUMNS, *rows]) + "\n")
     return path
 

@@ -112,15 +112,15 @@ class Session:
         """Run one epoch; return its output row (OUT,) and the events it brought."""
         if self.phase == "standing" and self._still.add(values, restart=False):
             self._level()
+        space, n = self.space, self.space.n
         self._dt[0] = dt_s
         self._values[0] = values
-        space = self.space
-        self._engine.advance(space.w, space.n, self._dt, self._values, 0, 1, self._row)
-        space.stamps[space.n[at.N_EPOCH] % space.ring] = stamp
+        self._engine.advance(space.w, n, self._dt, self._values, 0, 1, self._row)
+        space.stamps[n[at.N_EPOCH] % space.ring] = stamp
         found: Found = []
-        if space.n[at.N_NOTICE]:
+        if n[at.N_NOTICE]:
             found = self._attend()
-            self._engine.emit(space.w, space.n, self._row, 0)
+            self._engine.emit(space.w, n, self._row, 0)
         return self._row[0].copy(), found
 
     def steps(

@@ -189,18 +189,21 @@ class DualFootTracker:
             self._pending.append(self._session.aligned_event(stamp))
 
     def _track(self, session: Session, stamp: int, dt_ns: int, values: FloatArray) -> Update:
-        bridged: list[Event] = []
+        before: tuple[Event, ...] = ()
+        if self._pending:
+            before = self._take_pending()
         if dt_ns > MAX_GAP_NS:
             self.counters["gaps"] += 1
-            bridged = session.bridge(dt_ns * 1e-9)
+            before = (*before, *session.bridge(dt_ns * 1e-9))
             dt_ns = round(1e9 / session.rate_hz)
-        events = [*self._take_pending(), *bridged, *self._apply_pose(session, stamp)]
+        if self._pose is not None:
+            before = (*before, *self._apply_pose(session, stamp))
         row, found = session.step(stamp, dt_ns * 1e-9, values)
         return Update(
             stamp,
             session.phase,
             row=row,
-            events=(*events, *found),
+            events=(*before, *found) if found else before,
             blocks=session.space.blocks(),
             headings=session.headings.feet,
         )

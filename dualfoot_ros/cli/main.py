@@ -21,6 +21,7 @@ VERBS = {
     "calibrate": "calibrate",
     "evaluate": "evaluate",
     "compare": "compare",
+    "consistency": "consistency",
 }
 EXIT_BAD_INPUT = 2
 EXIT_INTERRUPTED = 130

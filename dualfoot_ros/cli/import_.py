@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 
+from ..core.aids import WORN
+from ..core.series import PressureSeries
 from ..core.trajectory import FEET
 from ..recording import Recording, checks, write_bag
 from ..recording.atomic import check_target
 from ..recording.errors import RecordingError
 from ..recording.importers import FORMATS, ImportOptions, import_recording
 from ..recording.importers.axes import IDENTITY
+from ..recording.importers.pressure_csv import read_pressure
 from ..recording.importers.units import FORCE_UNITS, RATE_UNITS
 from ..recording.open_bag import METADATA
 from ..recording.write import STORAGES
@@ -24,6 +28,7 @@ examples:
   dualfoot import rectangle_ccw/XF_2Laces_ccw_1.mat -o walk
   dualfoot import --left L.csv --right R.csv -o walk
   dualfoot import --left L.csv --right R.csv --axes=+y-x+z --right-offset 162.49 -o walk
+  dualfoot import --left L.csv --right R.csv --pressure both=baro.csv -o walk
   dualfoot import drive.mcap --left-topic /imu_l --right-topic /imu_r --rate-unit deg/s -o walk
 
 Axes and units of the bag: forward-left-up, m/s^2, rad/s, tesla. Stamps are those of the devices.
@@ -67,6 +72,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="T",
         help="tesla per unit of the magnetometer; 0 leaves it out (default; xsens-dot only)",
     )
+    parser.add_argument(
+        "--pressure",
+        action="append",
+        default=[],
+        metavar="WORN=FILE",
+        help="csv of air pressure of the left or right foot's sensor, or of both (worn on the "
+        "body): columns stamp_ns, time_us, time_ms or time_s, and pressure_Pa or pressure_hPa; "
+        "may be repeated",
+    )
     _add_bag_arguments(parser)
     parser.add_argument(
         "--storage", default="mcap", choices=STORAGES, help="storage of the bag (default: mcap)"
@@ -97,6 +111,8 @@ def run(args: argparse.Namespace) -> int:
         raise RecordingError("no output given; allowed is -o BAG, the folder to write")
     check_target(args.output, overwrite=args.overwrite, marker=METADATA)
     recording = import_recording(_options(args), args.format)
+    columns = {**recording.pressure, **dict(_pressure(text) for text in args.pressure)}
+    recording = replace(recording, pressure=columns)
     with progress(f"writing {args.output}") as update:
         write_bag(
             args.output,
@@ -107,6 +123,15 @@ def run(args: argparse.Namespace) -> int:
         )
     _report(args.output, recording)
     return 0
+
+
+def _pressure(text: str) -> tuple[str, PressureSeries]:
+    worn, _, path = text.partition("=")
+    if worn not in WORN or not path:
+        raise RecordingError(
+            f"--pressure is '{text}'; allowed is WORN=FILE with WORN one of {', '.join(WORN)}"
+        )
+    return worn, read_pressure(Path(path))
 
 
 def _list() -> None:

@@ -1,0 +1,72 @@
+"""A column of air pressure from a csv file: a time and a pressure, named with their units.
+
+The first line names the columns.  The stamps must be of the same clock as those of the feet.
+"""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from ...core.series import FloatArray, PressureSeries
+from ..errors import RecordingError
+
+TIMES = {"stamp_ns": 1.0, "time_us": 1e3, "SampleTimeFine": 1e3, "time_ms": 1e6, "time_s": 1e9}
+PRESSURES = {"pressure_Pa": 1.0, "pressure_hPa": 100.0, "pressure_mbar": 100.0}
+
+
+def read_pressure(path: Path) -> PressureSeries:
+    """Read a column of pressure.
+
+    Raises
+    ------
+    RecordingError
+        When the file has no such columns or a cell is no number; names file, column and line.
+    """
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            rows = list(csv.DictReader(file))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise RecordingError(f"cannot read '{path}' as csv: {error}") from None
+    if not rows:
+        raise RecordingError(f"'{path}' holds no samples; expected a line of names, then numbers")
+    time, pressure = _known(path, rows[0], TIMES), _known(path, rows[0], PRESSURES)
+    pascal = _column(path, rows, pressure) * PRESSURES[pressure]
+    if time == "stamp_ns":  # nanoseconds of an epoch do not fit a float
+        stamps = np.array([_integer(path, row[time], i) for i, row in enumerate(rows)])
+    else:
+        stamps = np.round(_column(path, rows, time) * TIMES[time]).astype(np.int64)
+    return PressureSeries(stamps.astype(np.int64), pascal)
+
+
+def _known(path: Path, row: dict[str, str], names: dict[str, float]) -> str:
+    found = [name for name in names if name in row]
+    if len(found) != 1:
+        raise RecordingError(
+            f"'{path}' has the columns {', '.join(map(str, row))}; "
+            f"exactly one must be one of {', '.join(names)}"
+        )
+    return found[0]
+
+
+def _column(path: Path, rows: list[dict[str, str]], name: str) -> FloatArray:
+    values = np.empty(len(rows))
+    for i, row in enumerate(rows):
+        try:
+            values[i] = float(row[name])
+        except (TypeError, ValueError):
+            raise _no_number(path, name, row[name], i) from None
+    return values
+
+
+def _integer(path: Path, cell: str, row: int) -> int:
+    try:
+        return int(cell)
+    except (TypeError, ValueError):
+        raise _no_number(path, "stamp_ns", cell, row) from None
+
+
+def _no_number(path: Path, name: str, cell: object, row: int) -> RecordingError:
+    return RecordingError(f"'{path}', line {row + 2}: {name} is {cell!r}, which is no number")

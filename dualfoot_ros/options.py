@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .core.parameters import Parameters, ParameterSpec, parameter
-from .timing import Sync
+from .drivers.checks import Checks
+from .timing import ClockModel, Stamping, Sync
+from .timing.clock_stamps import POLICIES
 
 SYNC_CHOICES = ("internal", "external")
 
@@ -81,7 +83,9 @@ class AdapterOptions(Parameters):
     """Parameters of the node ``imu_adapter`` itself."""
 
     source: str = parameter(
-        "topic:///imu", "where samples come from: topic:///NAME, file://PATH (bag or Xsens csv)"
+        "topic:///imu",
+        "where samples come from: topic:///NAME, file://PATH (bag or Xsens csv), or a device: "
+        "serial://, udp://, tcp://, ble://, see docs/sensors.md",
     )
     foot: str = parameter(
         "auto",
@@ -90,9 +94,13 @@ class AdapterOptions(Parameters):
     )
     frame_id: str = parameter("", "frame id to publish (empty: as received)")
     stamp: str = parameter(
-        "header",
-        "stamp of a sample: as received, or the time it arrived",
-        choices=("header", "arrival"),
+        "auto",
+        "stamp of a sample: header as it came, device the same as time of the device's clock "
+        "followed on the host's, arrival the time it came; auto: device for devices, else header",
+        choices=("auto", *POLICIES),
+    )
+    stamp_offset: float = parameter(
+        0.0, "added to every stamp", unit="s", minimum=-1.0e9, maximum=1.0e9
     )
     calibration: str = parameter(
         "",
@@ -103,8 +111,11 @@ class AdapterOptions(Parameters):
 
 @dataclass(frozen=True)
 class Mounting(Parameters):
-    """Rotation from the sensor's axes to forward-left-up, as fixed-axis angles."""
+    """From the sensor's axes to forward-left-up: axes named anew, then turned about fixed axes."""
 
+    axes: str = parameter(
+        "x,y,z", "axes of the sensor that point forward, left and up, as in y,-x,z"
+    )
     roll: float = parameter(0.0, "about x, first", unit="rad", minimum=-6.3, maximum=6.3)
     pitch: float = parameter(0.0, "about y, second", unit="rad", minimum=-6.3, maximum=6.3)
     yaw: float = parameter(0.0, "about z, last", unit="rad", minimum=-6.3, maximum=6.3)
@@ -179,15 +190,21 @@ GROUPS: dict[str, type[Parameters]] = {
     "mounting": Mounting,
     "units": Units,
     "covariance": Covariance,
+    "checks": Checks,
+    "stamping": Stamping,
+    "clock": ClockModel,
     "play": Play,
 }
 NODES: dict[str, tuple[type[Parameters], tuple[str, ...]]] = {
-    "fusion": (FusionOptions, ("aligner", "input", "frames", "path", "reports")),
+    "fusion": (
+        FusionOptions,
+        ("aligner", "stamping", "clock", "input", "frames", "path", "reports"),
+    ),
     "imu_adapter": (
         AdapterOptions,
-        ("mounting", "units", "covariance", "play", "input", "reports"),
+        ("mounting", "units", "covariance", "checks", "clock", "play", "input", "reports"),
     ),
-    "time_sync": (Parameters, ("aligner", "input", "reports")),
+    "time_sync": (Parameters, ("aligner", "stamping", "clock", "input", "reports")),
     "replay": (ReplayOptions, ("play", "reports")),
     "bringup": (BringupOptions, ()),
 }

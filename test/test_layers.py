@@ -10,8 +10,8 @@ TOP = "modules at the top of the package"
 BELOW = {
     "core": set(),
     "timing": {"core"},
-    TOP: {"core", "timing"},
-    "drivers": {"core", "timing", TOP},
+    "drivers": {"core", "timing"},
+    TOP: {"core", "timing", "drivers"},
     "recording": {"core", "timing", TOP},
     "simulation": {"core", "timing", TOP},
     "evaluation": {"core", "timing", TOP, "recording", "simulation"},

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from sensor_msgs.msg import Imu
 
 from ..calibration import SensorCalibration
 from ..core.series import FloatArray
+from ..drivers.conditioning import FORCE_UNITS, RATE_UNITS, axes_matrix, product, rotation
 from ..options import Covariance, Mounting, Units
-
-STANDARD_GRAVITY = 9.80665  # m/s^2 in a g
-SCALES = {"m/s^2": 1.0, "g": STANDARD_GRAVITY, "rad/s": 1.0, "deg/s": math.pi / 180.0}
 
 
 class Conversion:
@@ -25,26 +21,40 @@ class Conversion:
         covariance: Covariance,
         calibration: SensorCalibration | None = None,
     ) -> None:
-        """Correct by ``calibration``, which is in SI units and in the axes of the sensor."""
+        """Correct by ``calibration``, which is in SI units and in the axes of the sensor.
+
+        Raises
+        ------
+        SourceError
+            When ``mounting.axes`` are not three different, right-handed ones.
+        """
         self._rotation = mounting_rotation(mounting)
-        self._force = SCALES[units.specific_force]
-        self._rate = SCALES[units.angular_rate]
+        self._force = FORCE_UNITS[units.specific_force]
+        self._rate = RATE_UNITS[units.angular_rate]
         self._force_std, self._rate_std = (
             covariance.specific_force_std,
             covariance.angular_rate_std,
         )
-        plain = np.array_equal(self._rotation, np.eye(3))
+        self._plain = np.array_equal(self._rotation, np.eye(3))
         self._calibration = calibration
-        self._same_axes = plain and self._force == 1.0 and self._rate == 1.0
-        self._unchanged = self._same_axes and calibration is None
+        self._same_axes = self._plain and self._force == 1.0 and self._rate == 1.0
 
     def values(self, values: FloatArray) -> FloatArray:
         """Return specific force and angular rate (6,) in m/s^2 and rad/s, forward-left-up."""
-        if self._unchanged:
+        return self.turned(self.sensed(values))
+
+    def sensed(self, values: FloatArray) -> FloatArray:
+        """Return a sample (6,) in m/s^2 and rad/s, in the axes of the sensor, not corrected."""
+        if self._force == 1.0 and self._rate == 1.0:
             return values
-        sensed = np.concatenate([self._force * values[:3], self._rate * values[3:]])
+        return np.concatenate([self._force * values[:3], self._rate * values[3:]])
+
+    def turned(self, sensed: FloatArray) -> FloatArray:
+        """Return a sample (6,) in SI units corrected, and turned to forward-left-up."""
         if self._calibration is not None:
             sensed = self._calibration.values(sensed)
+        if self._plain:
+            return sensed
         return np.concatenate([self._rotation @ sensed[:3], self._rotation @ sensed[3:]])
 
     def describe(self, message: Imu) -> None:
@@ -71,11 +81,12 @@ class Conversion:
 
 
 def mounting_rotation(mounting: Mounting) -> FloatArray:
-    """Return the rotation (3, 3) from the sensor's axes to forward-left-up, Rz Ry Rx."""
-    cr, sr = math.cos(mounting.roll), math.sin(mounting.roll)
-    cp, sp = math.cos(mounting.pitch), math.sin(mounting.pitch)
-    cy, sy = math.cos(mounting.yaw), math.sin(mounting.yaw)
-    about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
-    about_y = np.array([[cp, 0.0, sp], [0.0, 1.0, 0.0], [-sp, 0.0, cp]])
-    about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
-    return about_z @ about_y @ about_x
+    """Return the rotation (3, 3) from the sensor's axes to forward-left-up, Rz Ry Rx ``axes``.
+
+    Raises
+    ------
+    SourceError
+        When the axes are not three different, right-handed ones.
+    """
+    turn = rotation(mounting.roll, mounting.pitch, mounting.yaw)
+    return np.array(product(turn, axes_matrix(mounting.axes)))

@@ -17,7 +17,7 @@ from ..core.trajectory import FEET
 from ..options import Frames, FusionOptions, Reports, node_specs
 from ..options import Input as InputOptions
 from ..options import Path as PathOptions
-from ..timing import Aligner, Sync
+from ..timing import Aligner, ClockModel, Stamping, Sync
 from . import qos
 from .diagnostics import Reporter
 from .health import Health
@@ -26,6 +26,7 @@ from .outputs import Outputs
 from .parameters import declare, group
 from .pressure import PressureInputs
 from .shell import Graph, Program, run_nodes
+from .stamper import Stamper
 from .suspicion import UnitSuspicion
 from .watch import Input, Watch, Watched
 
@@ -63,6 +64,7 @@ class FusionNode(Node):
         config = TrackerConfig.from_mapping(tracker)
         self.tracker = DualFootTracker(config, engine=own.engine)
         self.aligner = Aligner(group(Sync, values, "aligner."))
+        self.stamper = Stamper(_stamping(own.sync, values), group(ClockModel, values, "clock."))
         path = group(PathOptions, values, "path.")
         self.outputs = Outputs(self, frames, path, config.noise.gyro, own.publish_tf)
         self._calibration = for_feet([own.calibration] if own.calibration else [])
@@ -101,11 +103,15 @@ class FusionNode(Node):
         calibration = self._calibration.get(foot)
 
         def receive(message: Imu) -> None:
+            arrival_ns = self.inputs[foot].arrival_ns
+            stamp_ns = self.stamper.stamp(foot, to_ns(message.header.stamp), arrival_ns)
+            if stamp_ns is None:
+                return
             values = imu_values(message)
             if calibration is not None:
                 values = calibration.values(values)
             self.suspicions[foot].look(values.tolist())
-            for pair in self.aligner.push(foot, to_ns(message.header.stamp), values):
+            for pair in self.aligner.push(foot, stamp_ns, values):
                 self._track(pair)
 
         return receive
@@ -139,6 +145,11 @@ class FusionNode(Node):
         position, yaw = found
         self.tracker.set_pose(position.tolist(), yaw)
         log.info(f"pose set to {position.round(3).tolist()} m, heading {yaw:.3f} rad")
+
+
+def _stamping(sync: str, values: dict[str, Any]) -> Stamping:
+    """Return the policies for raw streams; time_sync has already applied them to others."""
+    return group(Stamping, values, "stamping.") if sync == "internal" else Stamping()
 
 
 def main() -> int:

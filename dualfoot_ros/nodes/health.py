@@ -70,6 +70,7 @@ class Health:
     def collect(self, status: Status) -> None:
         """Fill in a report."""
         self._node.watch.describe(status)
+        self._node.stamper.describe(status)
         for suspicion in self._node.suspicions.values():
             for sentence in suspicion.said:
                 status.note(WARN, sentence)

@@ -13,15 +13,21 @@ from sensor_msgs.msg import Imu
 from ..calibration import SensorCalibration, sensor_calibration
 from ..core.series import FloatArray
 from ..core.trajectory import FEET
+from ..drivers import Checks, SensorCheck
+from ..drivers import Sample as Sensed
+from ..drivers.errors import SourceError
 from ..options import AdapterOptions, Covariance, Mounting, Play, Reports, Units, node_specs
 from ..options import Input as InputOptions
+from ..timing import ClockModel, Stamping
 from . import qos, sources
 from .conversion import Conversion
+from .device import Device
 from .diagnostics import WARN, Rates, Reporter, Status
-from .messages import imu_values, new_imu, set_imu_values, set_time
+from .messages import imu_values, new_imu, set_imu_values, set_time, to_ns
 from .parameters import declare, group
 from .player import Player, Sample, in_order
 from .shell import Graph, Program, run_nodes
+from .stamper import Stamper
 from .suspicion import UnitSuspicion
 from .watch import Input, Watch, watched_publisher
 
@@ -30,6 +36,10 @@ PROGRAM = Program(
     "Publish one sensor as imu/data_raw, in SI units and with axes forward-left-up.",
     "  ros2 run dualfoot_ros imu_adapter --ros-args -r __ns:=/left "
     "-p source:=topic:///imu_a/data\n"
+    "  ros2 run dualfoot_ros imu_adapter --ros-args -r __ns:=/left "
+    "-p 'source:=serial:///dev/ttyUSB0?baud=921600&format=mcu' -p mounting.axes:=y,-x,z\n"
+    "  ros2 run dualfoot_ros imu_adapter --ros-args -r __ns:=/right "
+    "-p 'source:=udp://0.0.0.0:8000?format=ximu3&peers=192.168.1.5' -p checks.rate:=200.0\n"
     "  ros2 run dualfoot_ros imu_adapter --ros-args -r __ns:=/right "
     "-p source:=file://walk.csv -p mounting.yaw:=3.14159\n"
     "  ros2 run dualfoot_ros imu_adapter --ros-args -r __ns:=/left "
@@ -41,7 +51,7 @@ PROGRAM = Program(
 
 
 class ImuAdapterNode(Node):
-    """Relays a topic or plays a file; ``done`` is completed when the file is over."""
+    """Relays a topic, plays a file or reads a device; ``done`` is completed with its file."""
 
     def __init__(self, **options: Any) -> None:
         """Take the options of :class:`rclpy.node.Node`.
@@ -50,6 +60,8 @@ class ImuAdapterNode(Node):
         ------
         ConfigError
             For bad parameters or a source that names nothing.
+        SourceError
+            For a device with an unknown format or option, or axes that are none.
         CalibrationError
             When the calibration file cannot be used.
         RecordingError
@@ -58,6 +70,7 @@ class ImuAdapterNode(Node):
         super().__init__("imu_adapter", **options)
         values = declare(self, node_specs("imu_adapter"))
         self._options = group(AdapterOptions, values)
+        self._foot = self._named_foot()
         self._conversion = Conversion(
             group(Mounting, values, "mounting."),
             group(Units, values, "units."),
@@ -68,38 +81,59 @@ class ImuAdapterNode(Node):
         self.done: Future = Future()
         self.watch: Watch | None = None
         self.player: Player | None = None
+        self.device: Device | None = None
+        self.check = SensorCheck(group(Checks, values, "checks."))
         self._rates = Rates()
         self._suspicion = UnitSuspicion("this sensor", self.get_logger().warning)
         depth = group(InputOptions, values, "input.").depth
         self._out = watched_publisher(self, Imu, "imu/data_raw", qos.sensor(depth))
-        self._open(sources.parse(self._options.source), values)
+        self._own_message = new_imu(self._options.frame_id or f"{self._foot}_imu")
+        source = sources.parse(self._options.source)
+        self.stamper = Stamper(self._stamping(source), group(ClockModel, values, "clock."))
+        self._open(source, values)
         self._reporter = Reporter(self, group(Reports, values, "reports.").period, self._collect)
 
     def _open(self, source: sources.Source, values: dict[str, Any]) -> None:
-        if source.scheme == "topic":
-            options = group(InputOptions, values, "input.")
-            listener = Input(self, Imu, source.target, self._relay, qos.sensor(options.depth))
-            self.watch = Watch(self, [listener], options.silence)
-            return
-        foot = self._foot()
-        series = {foot: sources.load(source, foot)}
-        self._file_message = new_imu(self._options.frame_id or f"{foot}_imu")
+        options = group(InputOptions, values, "input.")
+        if source.kind == "topic":
+            self._input = Input(self, Imu, source.target, self._relay, qos.sensor(options.depth))
+            self.watch = Watch(self, [self._input], options.silence)
+        elif source.kind == sources.DEVICE:
+            checks = self.check.options
+            self.device = Device(
+                self, source.target, checks, options.silence, self._take, self._finish
+            )
+            self.check = self.device.source.check
+            self.device.start()
+        else:
+            self._play_file(source, group(Play, values, "play."))
+
+    def _play_file(self, source: sources.Source, play: Play) -> None:
+        series = {self._foot: sources.load(source, self._foot)}
         self.player = Player(
             lambda: in_order(series),
             self._play,
-            group(Play, values, "play."),
+            play,
             alive=self.context.ok,
             ready=lambda: self._out.get_subscription_count() > 0,
             finished=self._finish,
         )
         self.player.start()
 
+    def _stamping(self, source: sources.Source) -> Stamping:
+        policy = self._options.stamp
+        if policy == "auto":
+            policy = "device" if sources.is_live(source) else "header"
+        return Stamping.from_mapping(
+            {self._foot: policy, f"{self._foot}_offset": self._options.stamp_offset}
+        )
+
     def _calibration(self) -> SensorCalibration | None:
         if not self._options.calibration:
             return None
-        return sensor_calibration(self._options.calibration, self._foot())
+        return sensor_calibration(self._options.calibration, self._foot)
 
-    def _foot(self) -> str:
+    def _named_foot(self) -> str:
         if self._options.foot != "auto":
             return self._options.foot
         named = [foot for foot in FEET if foot in self.get_namespace().split("/")]
@@ -108,28 +142,55 @@ class ImuAdapterNode(Node):
     def _relay(self, message: Imu) -> None:
         if self._options.frame_id:
             message.header.frame_id = self._options.frame_id
-        if self._options.stamp == "arrival":
-            message.header.stamp = self.get_clock().now().to_msg()
-        self._send(message, imu_values(message))
+        header_ns = to_ns(message.header.stamp)
+        sensed = self._sensed(header_ns, imu_values(message))
+        if sensed is not None:
+            self._send(message, header_ns, self._input.arrival_ns, sensed)
 
     def _play(self, sample: Sample) -> None:
-        set_time(self._file_message.header.stamp, sample.stamp_ns)
-        if self._options.stamp == "arrival":
-            self._file_message.header.stamp = self.get_clock().now().to_msg()
-        self._send(self._file_message, sample.values)
+        sensed = self._sensed(sample.stamp_ns, sample.values)
+        if sensed is not None:
+            now_ns = int(self.get_clock().now().nanoseconds)
+            self._send(self._own_message, sample.stamp_ns, now_ns, sensed)
 
-    def _send(self, message: Imu, values: FloatArray) -> None:
-        converted = self._conversion.values(values)
-        if not np.isfinite(converted).all():
+    def _take(self, device_ns: int | None, arrival_ns: int, values: FloatArray) -> None:
+        """Send a sample of a device, which has been checked by its source."""
+        sensed = self._conversion.sensed(values)
+        self._send(self._own_message, device_ns, arrival_ns, sensed)
+
+    def _sensed(self, header_ns: int, values: FloatArray) -> FloatArray | None:
+        """Return a sample (6,) in SI units and the axes of the sensor; None: it is refused."""
+        sensed = self._conversion.sensed(values)
+        if not np.isfinite(sensed).all():
             self.counters["not_finite"] += 1
+            return None
+        force, rate = tuple(sensed[:3].tolist()), tuple(sensed[3:].tolist())
+        return sensed if self.check.accept(Sensed(header_ns, force, rate)) else None
+
+    def _send(
+        self, message: Imu, header_ns: int | None, arrival_ns: int, sensed: FloatArray
+    ) -> None:
+        stamp_ns = self._stamp(header_ns, arrival_ns)
+        if stamp_ns is None:
             return
-        self._suspicion.look(converted.tolist())
-        set_imu_values(message, converted)
+        values = self._conversion.turned(sensed)
+        self._suspicion.look(values.tolist())
+        set_time(message.header.stamp, stamp_ns)
+        set_imu_values(message, values)
         self._conversion.describe(message)
         self._out.publish(message)
         self.counters["relayed"] += 1
 
-    def _finish(self) -> None:
+    def _stamp(self, header_ns: int | None, arrival_ns: int) -> int | None:
+        if header_ns is None:  # a device without a clock
+            return arrival_ns + round(1e9 * self._options.stamp_offset)
+        return self.stamper.stamp(self._foot, header_ns, arrival_ns)
+
+    def _finish(self, error: SourceError | None = None) -> None:
+        if error is not None:
+            self.get_logger().error(str(error))
+            self.done.set_exception(error)
+            return
         self.get_logger().info(f"played {self.counters['relayed']} samples, the file is over")
         self.done.set_result(True)
 
@@ -139,13 +200,23 @@ class ImuAdapterNode(Node):
         status.values.update(self.counters)
         if self.watch is not None:
             self.watch.describe(status)
+        if self.device is not None:
+            self.device.describe(status)
+        else:
+            status.values |= {name: n for name, n in self.check.counters.items() if n}
+        status.values["sampling rate (Hz)"] = self.check.rate_hz
+        self.stamper.describe(status)
         if rates["not_finite"] > 0:
             status.note(WARN, "samples that are not finite are refused")
         for sentence in self._suspicion.said:
             status.note(WARN, sentence)
+        for sentence in self.check.findings:
+            status.note(WARN, sentence)
 
     def destroy_node(self) -> None:
-        """Stop playing, then destroy the node."""
+        """Stop playing or reading, then destroy the node."""
+        if self.device is not None:
+            self.device.stop()
         if self.player is not None:
             self.player.stop()
         super().destroy_node()

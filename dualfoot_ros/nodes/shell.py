@@ -130,6 +130,8 @@ def _spin(graph: Graph) -> None:
             executor.spin()
         else:
             executor.spin_until_future_complete(graph.done)
+            if graph.done.done():
+                graph.done.result()  # raises what ended it, if that was an error
     finally:
         _ignore_signals()
         executor.shutdown()

@@ -4,35 +4,62 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import NamedTuple
-from urllib.parse import parse_qsl, unquote, urlsplit
+from urllib.parse import unquote, urlsplit
 
 from ..core.errors import ConfigError
 from ..core.series import ImuSeries
+from ..drivers import parse_uri
 from ..recording import RecordingError, read_bag
 
-SCHEMES = ("topic", "file")
-ALLOWED = "topic:///NAME or file://PATH (the folder of a bag, a .mcap, a .db3, an Xsens DOT .csv)"
+RECORDED = "file"
+DEVICE = "device"
+ALLOWED = (
+    "topic:///NAME or file://PATH (the folder of a bag, a .mcap, a .db3, an Xsens DOT .csv), or a "
+    "device, as in serial:///dev/ttyUSB0?baud=921600&format=mcu, udp://:8000?format=ximu3, "
+    "tcp://192.168.1.5:7000?format=ximu3, ble://D4:22:CD:00:12:34"
+)
+DEVICES = ("serial", "udp", "tcp", "ble")
 
 
 class Source(NamedTuple):
-    """A parsed source: scheme, what it names, and further options."""
+    """A parsed source: its kind ("topic", "file" for recordings, "device") and what it names."""
 
-    scheme: str
+    kind: str
     target: str
-    options: dict[str, str]
 
 
 def parse(uri: str) -> Source:
-    """Return the parts of ``uri``; raise ConfigError saying what is allowed."""
-    parts = urlsplit(uri)
-    if parts.scheme not in SCHEMES:
+    """Return the parts of ``uri``; the target of a device is the whole URI.
+
+    A file with options (``file://capture.bin?format=mcu``) is read as a device's bytes.
+
+    Raises
+    ------
+    ConfigError
+        For an unknown scheme; says what is allowed.
+    SourceError
+        For a device with an unknown format or option; says which.
+    """
+    try:
+        parts = urlsplit(uri)
+    except ValueError as error:
+        raise ConfigError(f"parameter 'source' is '{uri}', no URI: {error}") from None
+    if parts.scheme not in ("topic", RECORDED, *DEVICES):
         raise ConfigError(f"parameter 'source' is '{uri}'; allowed is {ALLOWED}")
+    if parts.scheme in DEVICES or (parts.scheme == RECORDED and parts.query):
+        parse_uri(uri)
+        return Source(DEVICE, uri)
     target = unquote(parts.netloc + parts.path)
     if parts.scheme == "topic":
         target = target.replace("//", "/")  # topic://imu is a name in the node's namespace
     if not target.strip("/"):
         raise ConfigError(f"parameter 'source' is '{uri}' and names nothing; allowed is {ALLOWED}")
-    return Source(parts.scheme, target, dict(parse_qsl(parts.query)))
+    return Source(parts.scheme, target)
+
+
+def is_live(source: Source) -> bool:
+    """Tell whether a source is a device whose samples come as they are taken."""
+    return source.kind == DEVICE and urlsplit(source.target).scheme in DEVICES
 
 
 def load(source: Source, foot: str) -> ImuSeries:

@@ -12,19 +12,22 @@ from ..core.series import ImuPair
 from ..core.trajectory import FEET
 from ..options import Input as InputOptions
 from ..options import Reports, node_specs
-from ..timing import Aligner, Sync
+from ..timing import Aligner, ClockModel, Stamping, Sync
 from . import qos
 from .diagnostics import WARN, Rates, Reporter, Status
 from .messages import imu_values, new_imu, set_imu_values, set_time, to_ns
 from .parameters import declare, group
 from .shell import Graph, Program, run_nodes
+from .stamper import Stamper
 from .watch import Input, Watch, watched_publisher
 
 PROGRAM = Program(
     "time_sync",
     "Bring left/imu/data_raw and right/imu/data_raw on one time grid: left|right/imu/data_sync.",
     "  ros2 run dualfoot_ros time_sync\n"
-    "  ros2 run dualfoot_ros time_sync --ros-args -p aligner.rate:=200.0",
+    "  ros2 run dualfoot_ros time_sync --ros-args -p aligner.rate:=200.0\n"
+    "  ros2 run dualfoot_ros time_sync --ros-args -p stamping.left:=device "
+    "-p stamping.right:=device -p aligner.max_delay:=0.5",
     tuple(node_specs("time_sync")),
 )
 
@@ -38,6 +41,9 @@ class TimeSyncNode(Node):
         values = declare(self, node_specs("time_sync"))
         inputs = group(InputOptions, values, "input.")
         self.aligner = Aligner(group(Sync, values, "aligner."))
+        self.stamper = Stamper(
+            group(Stamping, values, "stamping."), group(ClockModel, values, "clock.")
+        )
         self._messages = {foot: new_imu(f"{foot}_imu") for foot in FEET}
         profile = qos.sensor(inputs.depth)
         self._out = {
@@ -54,7 +60,10 @@ class TimeSyncNode(Node):
     def _receiver(self, foot: str) -> Any:
         def receive(message: Imu) -> None:
             self._describe(foot, message)
-            stamp_ns = to_ns(message.header.stamp)
+            arrival_ns = self.inputs[foot].arrival_ns
+            stamp_ns = self.stamper.stamp(foot, to_ns(message.header.stamp), arrival_ns)
+            if stamp_ns is None:
+                return
             for pair in self.aligner.push(foot, stamp_ns, imu_values(message)):
                 self._publish(pair)
 
@@ -80,6 +89,7 @@ class TimeSyncNode(Node):
         self.watch.describe(status)
         status.values["pair rate (Hz)"] = rates["pairs"]
         status.values.update(counters)
+        self.stamper.describe(status)
         if rates["late"] > 0:
             status.note(WARN, "samples of one foot come too late and are dropped")
 

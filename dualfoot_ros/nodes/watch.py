@@ -25,6 +25,8 @@ class Input:
     """A subscription that counts what arrives and what was lost, and knows why nothing comes.
 
     ``lost`` counts the holes in the publisher's own numbering, which no queue hides.
+    ``arrival_ns`` is when the newest message came from the network, whatever time it then spent
+    in the queue; with ``use_sim_time`` it is the simulated time at which it is looked at.
     """
 
     def __init__(
@@ -38,6 +40,7 @@ class Input:
         self.received = 0
         self.lost = 0
         self._number: int | None = None
+        self.arrival_ns = 0
         self.last_s = time.monotonic()
         self.incompatible = ""
         self._node, self._callback = node, callback
@@ -58,12 +61,20 @@ class Input:
     def _receive(self, message: Any, info: dict[str, Any]) -> None:
         self.received += 1
         self.last_s = time.monotonic()
+        self.arrival_ns = self._arrival_ns(info)
         number = info.get("publication_sequence_number")
         if number is not None:
             if self._number is not None and number > self._number:
                 self.lost += number - self._number - 1
             self._number = number
         self._callback(message)
+
+    def _arrival_ns(self, info: dict[str, Any]) -> int:
+        received_ns = int(info.get("received_timestamp") or 0)
+        clock = self._node.get_clock()
+        if received_ns <= 0 or clock.ros_time_is_active:
+            return int(clock.now().nanoseconds)
+        return received_ns
 
     def _on_incompatible(self, event: Any) -> None:
         self.incompatible = qos_policy_name_from_kind(event.last_policy_kind)

@@ -4,6 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from dualfoot_ros.drivers import SourceError
 from dualfoot_ros.nodes.conversion import Conversion, mounting_rotation
 from dualfoot_ros.nodes.messages import new_imu
 from dualfoot_ros.options import Covariance, Mounting, Units
@@ -15,7 +16,8 @@ VALUES = np.array([1.0, -2.0, 9.0, 0.3, 0.1, -0.5])
 @given(angles, angles, angles)
 def test_mounting_is_the_fixed_axis_rotation_of_rep_103(roll, pitch, yaw):
     expected = Rotation.from_euler("xyz", [roll, pitch, yaw]).as_matrix()
-    np.testing.assert_allclose(mounting_rotation(Mounting(roll, pitch, yaw)), expected, atol=1e-14)
+    mounting = Mounting(roll=roll, pitch=pitch, yaw=yaw)
+    np.testing.assert_allclose(mounting_rotation(mounting), expected, atol=1e-14)
 
 
 def test_without_mounting_and_units_a_sample_keeps_its_bits():
@@ -26,6 +28,18 @@ def test_without_mounting_and_units_a_sample_keeps_its_bits():
 def test_a_sensor_worn_backwards_is_turned_forward():
     turned = Conversion(Mounting(yaw=np.pi), Units(), Covariance()).values(VALUES)
     np.testing.assert_allclose(turned, [-1.0, 2.0, 9.0, -0.3, -0.1, -0.5], atol=1e-12)
+
+
+def test_axes_are_named_anew_before_they_are_turned():
+    turned = Conversion(Mounting(axes="y,-x,z", yaw=np.pi / 2), Units(), Covariance())
+    np.testing.assert_allclose(turned.values(VALUES), VALUES, atol=1e-12)
+    plain = Conversion(Mounting(axes="y,-x,z"), Units(), Covariance())
+    np.testing.assert_allclose(plain.values(VALUES), [-2.0, -1.0, 9.0, 0.1, -0.3, -0.5])
+
+
+def test_axes_that_mirror_the_sensor_are_refused():
+    with pytest.raises(SourceError, match="they mirror the sensor"):
+        Conversion(Mounting(axes="x,-y,z"), Units(), Covariance())
 
 
 def test_g_and_degrees_become_si():

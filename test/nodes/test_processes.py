@@ -95,7 +95,12 @@ def test_an_argument_that_is_not_for_ros_is_refused(program):
     [
         ("replay", "bag:=/no/such/bag", "there is no bag '/no/such/bag'"),
         ("replay", "play.rate:=2.0", "parameter 'bag' is empty"),
-        ("imu_adapter", "source:=serial:///dev/x", "allowed is topic:///NAME or file://PATH"),
+        ("imu_adapter", "source:=imu", "allowed is topic:///NAME or file://PATH"),
+        ("imu_adapter", "source:=serial:///dev/x", "add format= with one of mcu, ximu3"),
+        ("imu_adapter", "source:=udp://:80?format=x", "format is 'x'; allowed is one of mcu"),
+        ("imu_adapter", "source:=udp://here?format=mcu", "the address is 'here'; allowed is HOST"),
+        ("imu_adapter", "source:=file:///no.bin?format=mcu", "'/no.bin' does not exist"),
+        ("imu_adapter", "mounting.axes:=x,-y,z", "axes are 'x,-y,z': they mirror the sensor"),
         ("imu_adapter", "source:=file:///no/such.csv", "there is no file '/no/such.csv'"),
     ],
 )

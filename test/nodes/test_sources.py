@@ -1,12 +1,13 @@
 import pytest
 
 from dualfoot_ros.core.errors import ConfigError
-from dualfoot_ros.nodes.sources import load, parse
+from dualfoot_ros.drivers import SourceError
+from dualfoot_ros.nodes.sources import is_live, load, parse
 from dualfoot_ros.recording import RecordingError, read_bag
 
 
 @pytest.mark.parametrize(
-    ("uri", "scheme", "target"),
+    ("uri", "kind", "target"),
     [
         ("topic:///imu", "topic", "/imu"),
         ("topic:///imu_a/data", "topic", "/imu_a/data"),
@@ -14,11 +15,33 @@ from dualfoot_ros.recording import RecordingError, read_bag
         ("file://walk.csv", "file", "walk.csv"),
         ("file:///data/walk.csv", "file", "/data/walk.csv"),
         ("file:///my%20data/walk", "file", "/my data/walk"),
+        ("serial:///dev/tty9?format=mcu", "device", "serial:///dev/tty9?format=mcu"),
+        ("udp://:8000?format=ximu3", "device", "udp://:8000?format=ximu3"),
+        ("file://capture.bin?format=mcu", "device", "file://capture.bin?format=mcu"),
     ],
 )
-def test_a_source_is_a_scheme_and_what_it_names(uri, scheme, target):
+def test_a_source_is_a_kind_and_what_it_names(uri, kind, target):
     source = parse(uri)
-    assert (source.scheme, source.target) == (scheme, target)
+    assert (source.kind, source.target) == (kind, target)
+
+
+def test_a_captured_file_is_a_device_that_is_not_live():
+    assert is_live(parse("udp://:8000?format=ximu3"))
+    assert not is_live(parse("file://capture.bin?format=mcu"))
+    assert not is_live(parse("topic:///imu"))
+
+
+@pytest.mark.parametrize(
+    ("uri", "said"),
+    [
+        ("serial:///dev/tty9", "add format= with one of mcu"),
+        ("udp://:8000?format=magic", "format is 'magic'; allowed is one of mcu"),
+        ("tcp://here:1?format=mcu&bout=9", "unknown option 'bout'"),
+    ],
+)
+def test_a_device_that_is_misnamed_is_refused_with_what_is_allowed(uri, said):
+    with pytest.raises(SourceError, match=said):
+        parse(uri)
 
 
 @pytest.mark.parametrize("uri", ["", "imu", "/imu", "ftp://a", "topic:///", "file://"])

@@ -1,0 +1,141 @@
+"""A sensor that the drivers read: its samples with the device's own time, and how it fares."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+
+import numpy as np
+from rclpy.node import Node
+
+from ..core.series import FloatArray
+from ..drivers import Checks, Sample, Source, State
+from ..drivers.errors import SourceError
+from ..timing import Counter, Unwrapper
+from .diagnostics import ERROR, WARN, Status
+
+Take = Callable[[int | None, int, FloatArray], None]
+
+
+class Device:
+    """Hands on ``(device_ns or None, arrival_ns, values (6,))`` from a thread of its own.
+
+    ``ended`` is called once, from that thread: without a reason when a file is over, with one
+    when reading has failed for good.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        uri: str,
+        checks: Checks,
+        silence_s: float,
+        take: Take,
+        ended: Callable[[SourceError | None], None],
+    ) -> None:
+        """Put it together; :meth:`start` starts.
+
+        Raises
+        ------
+        SourceError
+            When the URI, an option in it or the file it names is not allowed.
+        """
+        self._node, self._hand_on, self._ended = node, take, ended
+        self._silence_s = silence_s
+        self.without_time = 0
+        self.temperature = math.nan
+        self._unwrapper: Unwrapper | None = None
+        self._last_s = time.monotonic()
+        self._silent = False
+        self.source = Source(
+            uri,
+            self._take,
+            on_state=self._changed,
+            checks=checks,
+            clock=lambda: int(node.get_clock().now().nanoseconds),
+        )
+
+    def start(self) -> None:
+        """Begin to read."""
+        self.source.start()
+
+    def stop(self) -> None:
+        """Stop reading; nothing is handed on after this."""
+        self.source.stop()
+
+    def _take(self, samples: list[Sample]) -> None:
+        self._last_s = time.monotonic()
+        try:
+            for sample in samples:
+                values = np.array((*sample.specific_force, *sample.angular_rate))
+                self._hand_on(self._device_ns(sample), sample.arrival_ns, values)
+        except Exception:
+            if self._node.context.ok():
+                raise
+        if samples[-1].temperature is not None:
+            self.temperature = samples[-1].temperature
+
+    def _device_ns(self, sample: Sample) -> int | None:
+        """Return the device's time without wraps, or None where it sends none."""
+        if sample.ticks is None:
+            self.without_time += 1
+            return None
+        if self._unwrapper is None:
+            self._unwrapper = Unwrapper(
+                Counter(bits=str(sample.tick_bits), rate=1e9 / sample.tick_ns)
+            )
+        return self._unwrapper.time_ns(sample.ticks, sample.arrival_ns)
+
+    def _changed(self, state: State, reason: str) -> None:
+        log, uri = self._node.get_logger(), self.source.uri
+        if state is State.CONNECTED:
+            log.info(f"source '{uri}' is connected")
+        elif state is State.WAITING:
+            log.warning(f"source '{uri}' is not there and is tried again: {reason}")
+        elif state is State.FAILED and self._node.context.ok():
+            self._ended(SourceError(f"source '{uri}' has failed: {reason}"))
+        elif state is State.ENDED:
+            self._ended(None)
+
+    def describe(self, status: Status) -> None:
+        """Put link, decoder, checks and counter into a report."""
+        status.values["link"] = self.source.state.value
+        status.values["reconnects"] = max(0, self.source.reader.counters["opened"] - 1)
+        status.values |= self.source.counters
+        if not math.isnan(self.temperature):
+            status.values["temperature (deg C)"] = self.temperature
+        if self._unwrapper is not None:
+            status.values |= {f"ticks {k}": n for k, n in self._unwrapper.counters.items()}
+        if self.without_time:
+            status.values["without_time"] = self.without_time
+            status.note(WARN, "the device sends no time: its samples get that of their arrival")
+        senders = getattr(self.source.transport, "senders", ())
+        if len(senders) > 1:
+            names = ", ".join(sorted(senders))
+            status.note(WARN, f"several devices send to one port ({names}): list the peers")
+        self._describe_silence(status)
+
+    def _describe_silence(self, status: Status) -> None:
+        complaint = self.complaint()
+        if complaint is not None:
+            status.note(ERROR, complaint)
+            if not self._silent:
+                self._node.get_logger().warning(complaint)
+        self._silent = complaint is not None
+
+    def complaint(self) -> str | None:
+        """Return why no sample comes, or None when samples do."""
+        state, reason, uri = self.source.state, self.source.reader.reason, self.source.uri
+        if state in (State.WAITING, State.FAILED):
+            return f"source '{uri}' is {state.value}: {reason}"
+        silent_s = time.monotonic() - self._last_s
+        if state is not State.CONNECTED or silent_s < self._silence_s:
+            return None
+        decoder = self.source.decoder.counters
+        if decoder["samples"] or not decoder["bytes"]:
+            return f"source '{uri}' is connected but was silent for {silent_s:.1f} s"
+        return (
+            f"source '{uri}' sends bytes but no sample was found in {decoder['bytes']}: "
+            "check format and baud, and what the device is set to send"
+        )

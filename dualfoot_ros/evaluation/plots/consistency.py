@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -18,9 +19,12 @@ def draw_consistency(scores: Sequence[Score], path: Path, title: str) -> Path:
     curves = [score for score in scores if score.curve is not None]
     kinds = list(dict.fromkeys(score.name.partition(" ")[2] for score in curves))
     panels = {kind: [s for s in curves if s.name.partition(" ")[2] == kind] for kind in kinds}
-    figure, axes = new_figure(3.6 * len(panels), 3.4, columns=len(panels), sharey=True)
+    columns = math.ceil(len(panels) / 2)
+    figure, axes = new_figure(3.8 * columns, 6.0, 2, columns, sharex=True, sharey=True)
+    for axis in axes.flat[len(panels) :]:
+        axis.set_axis_off()
     along = np.linspace(0.0, 100.0, POINTS)
-    for axis, (kind, own) in zip(axes.flat, panels.items(), strict=True):
+    for axis, (kind, own) in zip(axes.flat, panels.items(), strict=False):
         for score in own:
             whose = score.name.partition(" ")[0]
             axis.plot(along, score.curve, color=COLOURS[whose], linewidth=1.1, label=whose)
@@ -29,8 +33,10 @@ def draw_consistency(scores: Sequence[Score], path: Path, title: str) -> Path:
         axis.axhline(1.0, color="black", linewidth=0.6)
         axis.set_yscale("log")
         axis.set_title(kind, fontsize=10)
-        axis.set_xlabel("share of the walk (%)")
         axis.legend(fontsize=7, frameon=False)
-    axes[0, 0].set_ylabel("NEES over dimensions")
+    for axis in axes[-1]:
+        axis.set_xlabel("share of the walk (%)")
+    for axis in axes[:, 0]:
+        axis.set_ylabel("NEES over dimensions")
     figure.suptitle(title, fontsize=11)
     return save(figure, path)

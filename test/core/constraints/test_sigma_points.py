@@ -105,6 +105,38 @@ def test_the_unscented_moments_hold_for_every_spread(alpha):
     assert variance == pytest.approx(exact_variance, rel=0.02)
 
 
+def textbook(r, P, alpha: float, beta: float, kappa: float):
+    """Return the moments by Julier and Uhlmann's unscented transform, all weights spelt out."""
+    n = len(P)
+    lam = alpha**2 * (n + kappa) - n
+    values, axes = np.linalg.eigh((n + lam) * P)
+    root = axes * np.sqrt(np.clip(values, 0.0, None))
+    errors = np.vstack([np.zeros(n), root.T, -root.T])
+    mean_weights = np.full(2 * n + 1, 0.5 / (n + lam))
+    mean_weights[0] = lam / (n + lam)
+    weights = mean_weights.copy()
+    weights[0] += 1.0 - alpha**2 + beta
+    distance = np.linalg.norm(r - errors @ SELECTOR.T, axis=1)
+    mean = mean_weights @ distance
+    return mean, weights @ (distance - mean) ** 2, -(weights * (distance - mean)) @ errors
+
+
+@pytest.mark.parametrize(("alpha", "beta", "kappa"), [(1.0, 2.0, 0.0), (0.5, 2.0, 3.0), (1, 0, 0)])
+def test_with_much_uncertainty_the_moments_are_the_textbooks(alpha, beta, kappa):
+    r, P = case(6, 0.4)
+    found = moments(mdmd_ukf, r, P, alpha=float(alpha), beta=float(beta), scaling=float(kappa))
+    for ours, theirs in zip(found, textbook(r, P, alpha, beta, kappa), strict=True):
+        assert np.allclose(ours, theirs, rtol=1e-9, atol=1e-12)
+
+
+def test_the_cubature_rule_has_equal_weights_and_no_centre():
+    """It is the unscented transform with alpha 1, kappa 0 and nothing added to the centre."""
+    r, P = case(6, 0.4)
+    found = moments(mdmd_ckf, r, P)
+    for ours, theirs in zip(found, textbook(r, P, 1.0, 0.0, 0.0), strict=True):
+        assert np.allclose(ours, theirs, rtol=1e-9, atol=1e-12)
+
+
 @BOTH
 @given(seed=seeds)
 @settings(max_examples=15, deadline=None)

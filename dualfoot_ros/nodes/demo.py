@@ -12,14 +12,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..core import TrackerConfig, Trajectory
-from ..core.errors import DualFootError
-from ..presets import load_config
-from ..recording import Recording, read_bag
-
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from ..core import TrackerConfig, Trajectory
+    from ..recording import Recording
     from .live_run import LiveRun
 
 EXAMPLES = """\
@@ -31,7 +28,12 @@ examples:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the demonstration; return the exit code."""
-    args = _arguments(argv)
+    with _abrupt_ctrl_c():
+        args = _arguments(argv)
+        from rich import console, progress  # noqa: F401
+
+        from .. import evaluation, presets, recording  # noqa: F401
+        from ..core.errors import DualFootError
     try:
         return run(args.bag, args.output, args.methods or _methods(), args.config)
     except KeyboardInterrupt:
@@ -52,6 +54,8 @@ def run(bag: Path, output: Path, methods: Sequence[str], config: str | None = No
     from rich.console import Console
 
     from ..evaluation import demo_report, truth_of
+    from ..presets import load_config
+    from ..recording import read_bag
 
     console = Console(stderr=True)
     configs = {name: load_config(config, {"method": name}) for name in methods}
@@ -85,10 +89,14 @@ def _arguments(argv: Sequence[str] | None) -> argparse.Namespace:
 
 
 def _methods() -> list[str]:
+    from ..core import TrackerConfig
+
     return list(dict.fromkeys(["zupt", TrackerConfig().method]))
 
 
 def _check(recording: Recording, has_truth: bool, bag: Path) -> None:
+    from ..core.errors import DualFootError
+
     missing = [foot for foot in ("left", "right") if not recording.imu(foot)]
     if missing:
         raise DualFootError(f"bag '{bag}' has no samples of the {' and the '.join(missing)} foot")
@@ -101,12 +109,13 @@ def _live(bag: Path, configs: dict[str, TrackerConfig], console: Console) -> dic
     from rich.progress import Progress
 
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    import rclpy
+    with _abrupt_ctrl_c():
+        import rclpy
 
-    from .live_run import run_live
+        from .live_run import run_live
 
-    context = rclpy.Context()
-    rclpy.init(args=["--ros-args", "--log-level", "warn"], context=context)
+        context = rclpy.Context()
+        rclpy.init(args=["--ros-args", "--log-level", "warn"], context=context)
     try:
         with Progress(console=console, transient=True) as bar, _patient_ctrl_c() as asked:
             console.print(f"replaying {bag} through the nodes: {', '.join(configs)}")
@@ -120,6 +129,19 @@ def _live(bag: Path, configs: dict[str, TrackerConfig], console: Console) -> dic
             return run_live(bag, configs, context, progress)
     finally:
         rclpy.try_shutdown(context=context)
+
+
+@contextmanager
+def _abrupt_ctrl_c() -> Iterator[None]:
+    """Let Ctrl-C end the process at once, with 130, while nothing has been begun.
+
+    An exception in the midst of an import may come out of it as another one, with a traceback.
+    """
+    before = signal.signal(signal.SIGINT, lambda *_: os._exit(130))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @contextmanager
@@ -137,6 +159,7 @@ def _compare(
     name: str, live: LiveRun, recording: Recording, config: TrackerConfig, console: Console
 ) -> None:
     """Say whether the offline run of the same samples gives the same numbers."""
+    from ..core.errors import DualFootError
     from .live_run import run_offline, same_bits
 
     assert recording.left is not None and recording.right is not None

@@ -41,6 +41,18 @@ def test_ctrl_c_ends_it_with_130_and_nothing_written(program, walk_bag, tmp_path
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize("module", ["numpy", "dualfoot_ros.core", "rclpy"])
+def test_ctrl_c_in_the_first_moments_is_no_traceback(
+    program, walk_bag, tmp_path, monkeypatch, module
+):
+    monkeypatch.setenv("PYTHONPROFILEIMPORTTIME", "1")  # says what has been imported
+    running = program("demo", walk_bag, "-o", tmp_path / "out", "--methods", "zupt")
+    running.wait_for(f" {module}\n")
+    running.send(signal.SIGINT)
+    assert running.code() in (130, -signal.SIGINT)  # a shell shows 130 for either
+    assert "Traceback" not in running.output
+
+
 @pytest.mark.parametrize(
     ("keep", "said"),
     [({"left"}, "no samples of the right foot"), ({"left", "right"}, "no truth of both feet")],

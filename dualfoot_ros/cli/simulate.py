@@ -175,6 +175,8 @@ def _report(args: argparse.Namespace, simulation: Simulation) -> None:
     from ..simulation import summary
 
     facts = {"bag": args.output, "seed": args.seed, **summary(simulation)}
+    if args.one_shoe is not None:
+        facts["lever_arm_m"] = _lever_arm(simulation)
     if args.json:
         print(json.dumps(facts, allow_nan=False))
         return
@@ -185,9 +187,19 @@ def _report(args: argparse.Namespace, simulation: Simulation) -> None:
     )
     for worn, count in facts.get("pressure_samples", {}).items():
         print(f"{count} samples of air pressure, worn on {worn}")
+    if "lever_arm_m" in facts:
+        arm = ", ".join(f"{v:g}" for v in facts["lever_arm_m"])
+        print(f"both sensors on the right shoe: --set rigid_pair.lever_arm='[{arm}]'")
     if facts["passes"]:
         print(
             f"the feet pass {facts['passes']} times at {facts['min_distance_mean_m']:.3f} +- "
             f"{facts['min_distance_std_m']:.3f} m, kappa {facts['kappa_mean']:.2f} +- "
             f"{facts['kappa_std']:.2f}"
         )
+
+
+def _lever_arm(simulation: Simulation) -> list[float]:
+    """Return where the second sensor on a shoe is from the first, in the first's axes (3,), m."""
+    walked = simulation.walk
+    arm = walked.mountings[0].T @ (walked.levers[1] - walked.levers[0])
+    return [round(float(v), 6) for v in arm]

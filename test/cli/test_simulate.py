@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.cli.main import main
 from dualfoot_ros.evaluation.association import truth_at
@@ -121,6 +122,18 @@ def test_two_sensors_on_one_shoe_keep_their_distance(tmp_path):
     recording = read_bag(path)
     apart = recording.left_truth.position - recording.right_truth.position
     np.testing.assert_allclose(np.linalg.norm(apart, axis=1), 0.05, atol=1e-9)
+
+
+def test_the_lever_arm_of_two_sensors_on_one_shoe_is_told_in_the_axes_of_the_first(
+    tmp_path, capsys
+):
+    path = str(tmp_path / "board")
+    assert main(["simulate", "-o", path, *SHORT, "--one-shoe", "0.05", "--json"]) == 0
+    arm = np.array(json.loads(capsys.readouterr().out)["lever_arm_m"])
+    recording = read_bag(path)
+    turn = Rotation.from_quat(recording.left_truth.quaternion)
+    apart = recording.right_truth.position - recording.left_truth.position
+    np.testing.assert_allclose(turn.inv().apply(apart), np.tile(arm, (len(apart), 1)), atol=1e-6)
 
 
 @pytest.mark.parametrize(

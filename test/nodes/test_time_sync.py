@@ -90,3 +90,28 @@ def test_a_bag_that_starts_again_is_counted_as_a_restart(bench):
     bench.until(lambda: sum(each.received for each in node.inputs.values()) == 400, "samples")
     assert node.aligner.counters["restarts"] >= 1
     assert node.aligner.counters["pairs"] > 150
+
+
+def test_streams_without_a_common_clock_are_paired_by_their_arrivals(bench):
+    values = {"stamping.left": "arrival", "stamping.right": "arrival"}
+    node = bench.add(TimeSyncNode, values)
+    feet = Feet(bench, node)
+    start_ns = node.get_clock().now().nanoseconds
+    for k in range(50):
+        feet.raw["left"].publish(imu(k * STEP_NS))
+        feet.raw["right"].publish(imu(10**15 + k * STEP_NS))
+        bench.until(lambda k=k: node.inputs["right"].received > k, "a sample")
+    bench.until(lambda: min(map(len, feet.got.values())) >= 20, "pairs")
+    stamps = [to_ns(m.header.stamp) for m in feet.got["left"]]
+    assert stamps == sorted(stamps) and start_ns <= stamps[0]
+    assert stamps[-1] <= node.get_clock().now().nanoseconds
+
+
+def test_a_fixed_offset_brings_two_streams_together(bench):
+    values = {"stamping.right_offset": -5.0}
+    node = bench.add(TimeSyncNode, values)
+    feet = Feet(bench, node)
+    for k in range(50):
+        feet.raw["left"].publish(imu(k * STEP_NS))
+        feet.raw["right"].publish(imu(5 * 10**9 + k * STEP_NS))
+    bench.until(lambda: node.aligner.counters["pairs"] == 50, "pairs")

@@ -1,0 +1,171 @@
+"""imu_adapter by parameters alone: real links, device clocks, a cable that is pulled."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from drivers import frames
+from drivers.links import PluggedDevice
+from sensor_msgs.msg import Imu
+
+from dualfoot_ros.drivers import SourceError, State
+from dualfoot_ros.drivers.file import FileTransport
+from dualfoot_ros.nodes import qos
+from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
+from dualfoot_ros.nodes.messages import imu_values, to_ns
+
+from .samples import status_values
+from .skewed_device import RATE, STEP_NS
+
+TESTS = Path(__file__).resolve().parents[1]
+BURST = 20  # samples, 0.1 s
+
+
+class Adapter:
+    """An adapter of the left foot, what it publishes and what it says about itself."""
+
+    def __init__(self, bench, source, **values):
+        self.samples, self.reports = [], []
+        probe = bench.plain()
+        profile = qos.sensor(10_000)
+        probe.create_subscription(Imu, "/left/imu/data_raw", self.samples.append, profile)
+        probe.create_subscription(DiagnosticArray, "/diagnostics", self.reports.append, 10)
+        values = {"source": source, "reports.period": 0.1, **values}
+        self.node = bench.add(ImuAdapterNode, values, namespace="left")
+        bench.until(lambda: self.node._out.get_subscription_count(), "discovery")
+
+    def report(self):
+        """Return the newest report."""
+        return self.reports[-1].status[0]
+
+    def says(self, level, words):
+        """Tell whether the newest report has that level and those words."""
+        return self.reports and self.report().level == level and words in self.report().message
+
+
+@pytest.fixture
+def send():
+    """Start the device with the skewed clock; return it and the wall time of its sample 0."""
+    running = []
+
+    def start(port, count, skew_ppm):
+        arguments = [port, count, 3600.0, skew_ppm, BURST]
+        command = [sys.executable, str(TESTS / "nodes" / "skewed_device.py"), *map(str, arguments)]
+        env = {**os.environ, "PYTHONPATH": str(TESTS)}
+        process = subprocess.Popen(command, env=env, stdout=subprocess.PIPE, text=True)
+        running.append(process)
+        return int(process.stdout.readline())
+
+    yield start
+    for process in running:
+        process.kill()
+        process.communicate()
+
+
+def errors_s(samples, start_ns, after):
+    """Return stamp less time of sampling of those from number ``after`` on, s."""
+    numbers = np.array([round(m.angular_velocity.x / RATE) for m in samples])
+    stamps = np.array([to_ns(m.header.stamp) for m in samples])
+    return 1e-9 * (stamps - start_ns - numbers * STEP_NS)[numbers >= after]
+
+
+def test_a_skewed_clock_behind_a_bursty_link_is_stamped_right_within_seconds(bench, send):
+    adapter = Adapter(bench, "udp://127.0.0.1:0?format=mcu")
+    transport = adapter.node.device.source.transport
+    bench.until(lambda: adapter.node.device.source.state is State.CONNECTED, "the port")
+    start_ns = send(transport.port, 1600, 1500.0)
+    bench.until(lambda: len(adapter.samples) >= 1500, "samples")
+    errors = errors_s(adapter.samples, start_ns, 1200)
+    assert np.median(np.abs(errors)) < 0.003
+    assert np.abs(errors).max() < 0.01  # a burst spreads the arrivals over 0.1 s
+    bench.until(lambda: status_values(adapter.reports[-1]).get("seen") == "1600", "a report")
+    values = status_values(adapter.reports[-1])
+    assert values["left clock"] == "tracking" and values["link"] == "connected"
+    assert float(values["left skew (ppm)"]) == pytest.approx(1500.0, abs=500.0)
+    assert float(values["left offset uncertainty (s)"]) < 0.005
+    assert float(values["sampling rate (Hz)"]) == pytest.approx(199.7, abs=0.5)
+
+
+def test_a_clock_that_is_off_by_two_percent_is_reported_and_not_published(bench, send):
+    adapter = Adapter(bench, "udp://127.0.0.1:0?format=mcu")
+    bench.until(lambda: adapter.node.device.source.state is State.CONNECTED, "the port")
+    send(adapter.node.device.source.transport.port, 3000, 20_000.0)
+    bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "ppm it is not fused"), "a report")
+    assert adapter.node.stamper.states["left"].skew_ppm == pytest.approx(20_000, rel=0.1)
+    relayed = adapter.node.counters["relayed"]
+    refused = adapter.node.stamper.counters["not_stamped"]
+    bench.until(lambda: adapter.node.stamper.counters["not_stamped"] >= refused + 40, "samples")
+    assert adapter.node.counters["relayed"] == relayed
+
+
+def test_a_serial_device_is_unplugged_and_comes_back(bench, tmp_path):
+    device = PluggedDevice(tmp_path / "ttyUSB0")
+    device.plug()
+    source = f"serial://{device.path}?baud=921600&format=mcu&retry_max=0.1"
+    adapter = Adapter(bench, source, **{"mounting.axes": "y,-x,z"})
+    reader = adapter.node.device.source.reader
+    bench.until(lambda: reader.state is State.CONNECTED, "the port")
+    device.send(frames.stream("mcu", 20))
+    bench.until(lambda: len(adapter.samples) == 20, "samples")
+    force, rate = frames.truth(7)
+    expected = [force[1], -force[0], force[2], rate[1], -rate[0], rate[2]]
+    np.testing.assert_allclose(imu_values(adapter.samples[7]), expected, rtol=1e-6)
+    device.unplug()
+    bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "is waiting: "), "the loss")
+    device.plug()
+    bench.until(lambda: reader.state is State.CONNECTED, "the port again")
+    device.send(b"\x05half a frame\0" + frames.stream("mcu", 20, first=40))
+    bench.until(lambda: len(adapter.samples) == 40, "samples again")
+    bench.until(lambda: status_values(adapter.reports[-1])["samples"] == "40", "a report")
+    values = status_values(adapter.reports[-1])
+    assert values["reconnects"] == "1" and values["malformed"] == "1"
+    device.unplug()
+
+
+def test_captured_bytes_are_played_with_the_device_s_own_time_to_their_end(bench, tmp_path):
+    path = tmp_path / "capture.bin"
+    path.write_bytes(frames.stream("mcu", 300))
+    adapter = Adapter(bench, f"file://{path}?format=mcu&speed=5")
+    bench.until(adapter.node.done.done, "the end of the file")
+    assert adapter.node.counters["relayed"] == 300
+    bench.until(lambda: adapter.samples and len(adapter.samples) > 200, "samples")
+    steps = np.diff([to_ns(m.header.stamp) for m in adapter.samples])
+    np.testing.assert_array_equal(steps, frames.PERIOD_US * 1000)
+
+
+def test_a_capture_that_cannot_be_read_ends_the_node_with_its_error(bench, tmp_path, monkeypatch):
+    path = tmp_path / "capture.bin"
+    path.write_bytes(b"")
+
+    def denied(self):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(FileTransport, "open", denied)
+    adapter = Adapter(bench, f"file://{path}?format=mcu")
+    bench.until(adapter.node.done.done, "the failure")
+    with pytest.raises(SourceError, match=r"capture\.bin.* has failed: .*Permission denied"):
+        adapter.node.done.result()
+
+
+def test_bytes_of_another_format_are_said_to_be_that(bench, send):
+    values = {"input.silence": 0.5}
+    adapter = Adapter(bench, "udp://127.0.0.1:0?format=xbus", **values)
+    bench.until(lambda: adapter.node.device.source.state is State.CONNECTED, "the port")
+    send(adapter.node.device.source.transport.port, 2000, 0.0)
+    bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "check format and baud"), "it")
+    assert adapter.samples == []
+
+
+def test_readings_at_the_end_of_the_range_and_a_wrong_rate_are_reported(bench, tmp_path):
+    path = tmp_path / "capture.bin"
+    path.write_bytes(frames.stream("mcu", 300))
+    values = {"checks.rate": 100.0, "checks.force_range": 15.0}
+    adapter = Adapter(bench, f"file://{path}?format=mcu&speed=0&follow=true", **values)
+    bench.until(lambda: adapter.node.check.counters["seen"] == 300, "samples")
+    bench.until(lambda: adapter.says(DiagnosticStatus.WARN, "200.0 samples a second"), "rate")
+    assert any("end of its range" in each for each in adapter.node.check.findings)
+    assert adapter.node.check.counters["clipped_force"] > 0

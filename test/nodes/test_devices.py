@@ -1,6 +1,7 @@
 """imu_adapter by parameters alone: real links, device clocks, a cable that is pulled."""
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -169,3 +170,19 @@ def test_readings_at_the_end_of_the_range_and_a_wrong_rate_are_reported(bench, t
     bench.until(lambda: adapter.says(DiagnosticStatus.WARN, "200.0 samples a second"), "rate")
     assert any("end of its range" in each for each in adapter.node.check.findings)
     assert adapter.node.check.counters["clipped_force"] > 0
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=lambda n: n.name)
+def test_a_signal_while_samples_come_ends_the_process_with_code_0(program, tmp_path, number):
+    device = PluggedDevice(tmp_path / "ttyUSB0")
+    device.plug()
+    source = f"source:=serial://{device.path}?format=mcu"
+    running = program("imu_adapter", "--ros-args", "-p", source)
+    running.wait_for("is connected")
+    for k in range(100):
+        device.send(frames.frame("mcu", k))
+        if k == 50:
+            running.send(number)
+    assert running.code() == 0
+    assert "Traceback" not in running.output
+    device.unplug()

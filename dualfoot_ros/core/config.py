@@ -107,7 +107,7 @@ class Initial(Parameters):
         1.0e-4, "gyro bias, the least of it", unit="rad/s", minimum=0.0, maximum=1.0
     )
     accelerometer_bias: float = parameter(
-        0.05, "accelerometer bias", unit="m/s^2", minimum=0.0, maximum=5.0
+        0.1, "accelerometer bias", unit="m/s^2", minimum=0.0, maximum=5.0
     )
     spacing: float = parameter(
         0.15, "lateral distance of the feet at the start", unit="m", minimum=0.0, maximum=1.0
@@ -140,7 +140,7 @@ class Stance(Parameters):
 class Zupt(Parameters):
     """Zero-velocity update, eq. (12), at the point about which the foot pivots."""
 
-    std: float = parameter(0.03, "velocity noise in stance", unit="m/s", minimum=1e-4, maximum=1.0)
+    std: float = parameter(0.05, "velocity noise in stance", unit="m/s", minimum=1e-4, maximum=1.0)
     rate_std: float = parameter(
         0.05,
         "velocity noise added per angular rate",
@@ -162,7 +162,7 @@ class Zupt(Parameters):
         maximum=0.5,
     )
     lever_back: float = parameter(
-        0.0,
+        0.08,
         "how far the pivot is behind the sensor, along the foot",
         unit="m",
         minimum=-0.3,

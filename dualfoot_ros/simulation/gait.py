@@ -15,7 +15,7 @@ from ..core.series import FloatArray
 from .footprints import HEEL_STRIKE, TOE_OFF
 
 FOOT_LENGTH_M = 0.17  # from the heel's edge to the ball
-MIDDLE_M = 0.12  # from the point about which the flat foot turns to the ball
+MIDDLE_M = 0.17  # from the point about which the flat foot turns to the ball
 
 _KEYS = {
     # nose-down pitch, rad

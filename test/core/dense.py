@@ -97,10 +97,14 @@ class DenseFoot:
     def zupt(self) -> None:
         """Set the velocity of the pivot to zero, eq. (12) with a lever arm."""
         z = self.config.zupt
-        swept = self.C @ np.cross(self.rate, self.lever)
+        level = np.diag([1.0, 1.0, 0.0])  # a turn about the vertical sweeps nothing
+        rate, lever = self.C @ self.rate, self.C @ self.lever
+        swept = np.cross(level @ rate, lever)
         H = np.zeros((3, 15))
-        H[:, VEL], H[:, ATT] = np.eye(3), cross_matrix(swept)
-        H[:, BG] = -self.C @ cross_matrix(self.lever)
+        H[:, VEL] = np.eye(3)
+        H[:, ATT] = cross_matrix(level @ rate) @ cross_matrix(lever)
+        H[:, ATT] -= cross_matrix(lever) @ level @ cross_matrix(rate)
+        H[:, BG] = -cross_matrix(lever) @ level @ self.C
         R = np.eye(3) * (z.std**2 + z.rate_std**2 * float(self.rate @ self.rate))
         error, self.P, _, _ = joseph(self.P, H, R, self.v + swept)
         self.r, self.v = self.r - error[POS], self.v - error[VEL]

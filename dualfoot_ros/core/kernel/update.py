@@ -192,42 +192,44 @@ def feed_back(w):
 def zupt(w, foot, still=False):
     """Zero-velocity update of one foot, eq. (12), at the point about which the foot pivots.
 
-    With the pivot at ``l`` from the sensor, the sensor moves with v = -R_nb (omega x l) while the
-    foot rolls over: h(x) = v + R_nb (omega x l) is zero, with the rows [0, I, [R_nb u x],
-    -R_nb [l x], 0], u = omega x l.  A lever arm of zero is the paper's eq. (12).  ``still`` takes
-    the noise of a standstill, in which nothing moves, for that of a stance.
+    With the pivot at ``l`` from the sensor (navigation axes), the sensor moves with
+    v = -P omega x l while the foot rolls over: h(x) = v + P omega x l is zero.  P keeps the
+    horizontal part of the angular rate: a foot that turns about the vertical turns under its ball,
+    not about ``l``.  The rows are [0, I, [P omega x][l x] - [l x] P [omega x], -[l x] P R_nb, 0];
+    a lever arm of zero is the paper's eq. (12).  ``still`` takes the noise of a standstill, in
+    which nothing moves, for that of a stance.
     """
     o = foot * FOOT
+    r = o + ROT
     lever = C_FOOT + foot * C_STRIDE + C_LEVER
-    lx = w[lever]
-    ly = w[lever + 1]
-    lz = w[lever + 2]
-    wx = w[o + RATE]
-    wy = w[o + RATE + 1]
-    wz = w[o + RATE + 2]
-    ux = wy * lz - wz * ly
-    uy = wz * lx - wx * lz
-    uz = wx * ly - wy * lx
+    bx = w[o + RATE]
+    by = w[o + RATE + 1]
+    bz = w[o + RATE + 2]
+    wx = w[r] * bx + w[r + 1] * by + w[r + 2] * bz
+    wy = w[r + 3] * bx + w[r + 4] * by + w[r + 5] * bz
+    wz = w[r + 6] * bx + w[r + 7] * by + w[r + 8] * bz
+    lx = w[r] * w[lever] + w[r + 1] * w[lever + 1] + w[r + 2] * w[lever + 2]
+    ly = w[r + 3] * w[lever] + w[r + 4] * w[lever + 1] + w[r + 5] * w[lever + 2]
+    lz = w[r + 6] * w[lever] + w[r + 7] * w[lever + 1] + w[r + 8] * w[lever + 2]
     for k in range(96):
         w[S_H + k] = 0.0
-    for i in range(3):
-        r = o + ROT + 3 * i
-        w[S_Y + i] = w[r] * ux + w[r + 1] * uy + w[r + 2] * uz
-        h = S_H + 32 * i + 16 * foot
-        w[h + 3 + i] = 1.0
-        w[h + 9] = w[r + 2] * ly - w[r + 1] * lz  # -R [l x]
-        w[h + 10] = w[r] * lz - w[r + 2] * lx
-        w[h + 11] = w[r + 1] * lx - w[r] * ly
-    ax = w[S_Y]
-    ay = w[S_Y + 1]
-    az = w[S_Y + 2]
     h = S_H + 16 * foot
-    w[h + 7] = -az
-    w[h + 8] = ay
-    w[h + 32 + 6] = az
-    w[h + 32 + 8] = -ax
-    w[h + 64 + 6] = -ay
-    w[h + 64 + 7] = ax
+    for i in range(3):
+        w[h + 33 * i + 3] = 1.0
+        w[h + 9 + i] = lz * w[r + 3 + i]
+        w[h + 32 + 9 + i] = -lz * w[r + i]
+        w[h + 64 + 9 + i] = ly * w[r + i] - lx * w[r + 3 + i]
+    w[h + 6] = lz * wz - wy * ly
+    w[h + 7] = wy * lx
+    w[h + 8] = -lz * wx
+    w[h + 32 + 6] = wx * ly
+    w[h + 32 + 7] = lz * wz - wx * lx
+    w[h + 32 + 8] = -lz * wy
+    w[h + 64 + 6] = wx * lz - lx * wz
+    w[h + 64 + 7] = wy * lz - ly * wz
+    w[S_Y] = wy * lz
+    w[S_Y + 1] = -wx * lz
+    w[S_Y + 2] = wx * ly - wy * lx
     collect_zupt(w, foot)
     noise = w[C_ZUPT_STILL_VAR] if still else w[C_ZUPT_VAR]
     noise += w[C_ZUPT_RATE_VAR] * (wx * wx + wy * wy + wz * wz)

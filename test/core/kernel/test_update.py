@@ -46,7 +46,8 @@ def pivot_velocity(w: np.ndarray, foot: int) -> np.ndarray:
     _, v, C, bg, _ = nominal(w, foot)
     lever = at.C_FOOT + foot * at.C_STRIDE + at.C_LEVER
     sample = w[SAMPLE + 6 * foot + 3 : SAMPLE + 6 * foot + 6]
-    return v + C @ np.cross(sample - bg, w[lever : lever + 3])
+    rate = C @ (sample - bg)
+    return v + np.cross([rate[0], rate[1], 0.0], C @ w[lever : lever + 3])
 
 
 @pytest.mark.parametrize("foot", (0, 1))

@@ -85,12 +85,13 @@ def height_rmse(recording: Recording, **settings) -> tuple[float, list[str]]:
 def test_the_pressure_of_a_recording_betters_the_height_and_is_offered_where_it_is_not_used(
     climbed,
 ):
-    without, notes = height_rmse(climbed)
+    drifting = {"zupt.lever_back": 0.0}  # with the pivot below the sensor walks climb
+    without, notes = height_rmse(climbed, **drifting)
     assert notes == [
         f"{sum(map(len, climbed.pressure.values()))} samples of air pressure not used; with "
         "aids.barometer=true they give the height"
     ]
-    better, notes = height_rmse(climbed, **{"aids.barometer": True})
+    better, notes = height_rmse(climbed, **drifting, **{"aids.barometer": True})
     assert notes == []
     assert better < 0.75 * without
 

@@ -89,6 +89,9 @@ class Health:
             "last constraint innovation (m)": self._correction_m,
         }
         status.values |= {f"{foot} stance": self._stance[foot] for foot in FEET}
+        if tracker.spacing is not None:
+            spacing, std = tracker.spacing
+            status.values |= {"spacing of the feet (m)": spacing, "spacing std (m)": std}
         if tracker.phase == "aligning" and tracker.complaint:
             status.note(WARN, f"aligning: stand still ({tracker.complaint})")
         for foot in FEET:
@@ -117,5 +120,5 @@ class Health:
 
 
 def _is_refusal(name: str) -> bool:
-    words = ("not_finite", "out_of_range", "out_of_order", "late")
+    words = ("not_finite", "out_of_range", "out_of_order", "far_ahead", "late")
     return name.endswith(words)

@@ -264,6 +264,14 @@ def test_diagnostics_tell_phase_engine_method_and_counters(bench):
     assert float(values["NIS ratio of ZUPT"]) >= 0.0 and "lag (s)" in values
 
 
+def test_diagnostics_tell_the_spacing_that_is_being_learnt(bench):
+    walker = Walker(bench, {"method": "spacing_vector"})
+    walker.stand(4.0)
+    report = walker.report(lambda r: status_values(r)["phase"] == "standing")
+    values = status_values(report)
+    assert 0.0 < float(values["spacing std (m)"]) < float(values["spacing of the feet (m)"])
+
+
 def test_motion_during_the_alignment_is_said(bench):
     walker = Walker(bench)
     shaking = np.random.default_rng(1).normal(0.0, 2.0, (300, 6)) + STANDING

@@ -109,8 +109,9 @@ def default_scores():
 
 @pytest.mark.parametrize(
     "name",
-    ["left horizontal", "right horizontal", "relative horizontal", "left heading",
-     "right heading", "left velocity", "right velocity"],
+    ["left position", "right position", "relative position", "left horizontal",
+     "right horizontal", "relative horizontal",
+     "left heading", "right heading", "left velocity", "right velocity"],
 )  # fmt: skip
 def test_the_default_promises_no_more_than_it_keeps_on_simulated_walks(default_scores, name):
     """The simulator is kinder than real walks: being cautious by a factor of 3 is no fault."""

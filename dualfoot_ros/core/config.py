@@ -77,7 +77,7 @@ class Noise(Parameters):
     """Sensor model: densities for Q, eq. (8) of Liu et al. 2023."""
 
     gyro: float = parameter(
-        2.0e-3, "angular rate noise density", unit="rad/s/sqrt(Hz)", minimum=0.0, maximum=1.0
+        3.0e-3, "angular rate noise density", unit="rad/s/sqrt(Hz)", minimum=0.0, maximum=1.0
     )
     accelerometer: float = parameter(
         2.0e-2, "specific force noise density", unit="m/s^2/sqrt(Hz)", minimum=0.0, maximum=10.0

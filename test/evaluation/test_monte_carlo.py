@@ -110,7 +110,7 @@ def default_scores():
 @pytest.mark.parametrize(
     "name",
     ["left position", "right position", "relative position", "left horizontal",
-     "right horizontal", "relative horizontal",
+     "right horizontal", "relative horizontal", "left attitude", "right attitude",
      "left heading", "right heading", "left velocity", "right velocity"],
 )  # fmt: skip
 def test_the_default_promises_no_more_than_it_keeps_on_simulated_walks(default_scores, name):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import re
 from collections import Counter
 from dataclasses import dataclass
 from importlib import util
@@ -22,6 +23,8 @@ UUID = "1517{:04x}-4947-11e9-8646-d663bd873d93"
 CONTROL = 0x2001
 MEASUREMENT, START, STOP = 1, 1, 0
 FAREWELL_S = 2.0
+HEX = "[0-9A-Fa-f]"
+ADDRESS = re.compile(rf"({HEX}{{2}}:){{5}}{HEX}{{2}}|{HEX}{{8}}(-{HEX}{{4}}){{3}}-{HEX}{{12}}")
 
 
 @dataclass(frozen=True)
@@ -53,8 +56,13 @@ class BleTransport:
         Raises
         ------
         SourceError
-            When bleak is not installed.
+            When the address is none, or bleak is not installed.
         """
+        if ADDRESS.fullmatch(address) is None:
+            raise SourceError(
+                f"the Bluetooth address is '{address}'; allowed is as in D4:22:CD:00:12:34 "
+                "(on macOS the UUID that the system gives the device)"
+            )
         if util.find_spec("bleak") is None:
             raise SourceError("a ble:// source needs bleak: pip install 'dualfoot_ros[ble]'")
         options = options or BleOptions()

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from ..core.parameters import Parameters, parameter
 from .address import Address
+from .errors import SourceError
 from .transport import CHUNK, POLL_S
 
 CONNECT_S = 1.0
@@ -32,7 +33,15 @@ class TcpTransport:
     reopens = True
 
     def __init__(self, address: Address, options: TcpOptions | None = None) -> None:
-        """Name the server; nothing is opened yet."""
+        """Name the server; nothing is opened yet.
+
+        Raises
+        ------
+        SourceError
+            When the port is 0, where nobody can be.
+        """
+        if address.port == 0:
+            raise SourceError(f"the address is '{address}'; allowed is a port from 1 to 65535")
         self.description = f"TCP {address}"
         self.counters: Counter[str] = Counter()
         self.silence_s = (options or TcpOptions()).silence

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from rclpy.parameter import Parameter
 from rclpy.task import Future
 from sensor_msgs.msg import FluidPressure, Imu
 
+from ..core.errors import DualFootError
 from ..core.trajectory import FEET
 from ..options import BringupOptions, node_specs
 from . import qos
@@ -25,7 +27,8 @@ from .replay import ReplayNode
 from .shell import Graph, Program, destroy, run_nodes
 from .time_sync import TimeSyncNode
 
-QUIET_S = 0.5  # without a result after the end of a bag: that was the last
+QUIET_S = 0.5  # without a result after the end of what was played: that was the last
+Sensors = ReplayNode | ImuAdapterNode
 PROGRAM = Program(
     "bringup",
     "Start imu_adapter for both feet (or replay), time_sync and fusion in one process.",
@@ -44,7 +47,9 @@ class BringupNode(Node):
 
 
 def build(**options: Any) -> Graph:
-    """Make the nodes; a graph with a bag is done a moment after the bag is over.
+    """Make the nodes; the graph is done a moment after its bag, or the files of both feet, are.
+
+    It fails when a source has failed for good; a device that is not there yet is none.
 
     Raises
     ------
@@ -71,20 +76,35 @@ def _add_nodes(
     nodes.append(TimeSyncNode(**options))
     if settings.record:
         nodes.append(_recorder(Path(settings.record).expanduser(), fusion, options))
+    sensors: list[Sensors] = []
+    for sensor in _sensors(settings, nodes[0].get_namespace().rstrip("/"), options):
+        sensors.append(sensor)
+        nodes.append(sensor)
+    return _when_over(sensors, fusion) if sensors else None
+
+
+def _sensors(settings: BringupOptions, space: str, options: dict[str, Any]) -> Iterator[Sensors]:
+    """Yield what brings samples: one at a time, so that those before a bad one are destroyed."""
     if settings.bag:
-        replay = ReplayNode(**_with(options, Parameter("bag", value=settings.bag)))
-        nodes.append(replay)
-        return _when_quiet(replay, fusion)
-    if settings.adapters:
-        space = nodes[0].get_namespace().rstrip("/")
-        nodes.extend(_adapter(f"{space}/{foot}", options) for foot in FEET)
-    return None
+        yield ReplayNode(**_with(options, Parameter("bag", value=settings.bag)))
+    elif settings.adapters:
+        for foot in FEET:
+            yield _adapter(f"{space}/{foot}", options)
 
 
-def _adapter(namespace: str, options: dict[str, Any]) -> Node:
-    """Make an adapter in its namespace, even where __ns:= is given for the whole process."""
+def _adapter(namespace: str, options: dict[str, Any]) -> ImuAdapterNode:
+    """Make an adapter in its namespace, even where __ns:= is given for the whole process.
+
+    Raises
+    ------
+    DualFootError
+        For what the adapter refuses; names the node.
+    """
     arguments = [*(options.get("cli_args") or ["--ros-args"]), "-r", f"__ns:={namespace}"]
-    return ImuAdapterNode(**{**options, "namespace": namespace, "cli_args": arguments})
+    try:
+        return ImuAdapterNode(**{**options, "namespace": namespace, "cli_args": arguments})
+    except (DualFootError, OSError) as error:
+        raise DualFootError(f"{namespace}/imu_adapter: {error}") from None
 
 
 def _with(options: dict[str, Any], *parameters: Parameter) -> dict[str, Any]:
@@ -106,20 +126,36 @@ def _recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> Node:
     return RecorderNode(path, topics, **options)
 
 
-def _when_quiet(replay: ReplayNode, fusion: FusionNode) -> Future:
-    """Return a future that is done when the bag is over and its last results have come."""
+def _when_over(sensors: Sequence[Sensors], fusion: FusionNode) -> Future:
+    """Return a future that is done when all is played and its last results have come.
+
+    It fails with the first sensor that does.
+    """
     done: Future = Future()
-    steady = Clock(clock_type=ClockType.STEADY_TIME)
-    before = -1
+    before: tuple[bool, int] | None = None
 
     def look() -> None:
         nonlocal before
-        if fusion.outputs.published == before and not done.done():
+        over, failed = _state(sensors)
+        now = (over, fusion.outputs.published)
+        if failed is not None:
+            done.set_exception(failed)
+        elif over and now == before:
             done.set_result(True)
-        before = fusion.outputs.published
+        before = now
 
-    replay.done.add_done_callback(lambda _: replay.create_timer(QUIET_S, look, clock=steady))
+    fusion.create_timer(QUIET_S, look, clock=Clock(clock_type=ClockType.STEADY_TIME))
     return done
+
+
+def _state(sensors: Sequence[Sensors]) -> tuple[bool, DualFootError | None]:
+    """Return whether all sensors are over, and why one has failed."""
+    ended = [sensor for sensor in sensors if sensor.done.done()]
+    for sensor in ended:
+        if (reason := sensor.done.exception()) is not None:
+            name = sensor.get_fully_qualified_name()
+            return False, DualFootError(f"{name}: {reason}")
+    return len(ended) == len(sensors), None
 
 
 def main() -> int:

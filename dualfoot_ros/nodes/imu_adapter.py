@@ -51,7 +51,10 @@ PROGRAM = Program(
 
 
 class ImuAdapterNode(Node):
-    """Relays a topic, plays a file or reads a device; ``done`` is completed with its file."""
+    """Relays a topic, plays a file or reads a device.
+
+    ``done`` is completed with its file, and fails with a source that has failed for good.
+    """
 
     def __init__(self, **options: Any) -> None:
         """Take the options of :class:`rclpy.node.Node`.
@@ -188,7 +191,6 @@ class ImuAdapterNode(Node):
 
     def _finish(self, error: SourceError | None = None) -> None:
         if error is not None:
-            self.get_logger().error(str(error))
             self.done.set_exception(error)
             return
         self.get_logger().info(f"played {self.counters['relayed']} samples, the file is over")

@@ -117,8 +117,13 @@ def _ros_arguments() -> Iterator[None]:
     try:
         yield
     except Exception as error:  # the classes of rcl's errors have no public name
-        reason = SOURCE_LINE.sub("", " ".join(str(error).split()))
+        reason = in_one_line(error)
         raise DualFootError(f"the arguments after --ros-args cannot be read: {reason}") from None
+
+
+def in_one_line(error: Exception) -> str:
+    """Return what rcl says, without line breaks and without where in its source it says so."""
+    return SOURCE_LINE.sub("", " ".join(str(error).split()))
 
 
 def _spin(graph: Graph) -> None:
@@ -129,13 +134,24 @@ def _spin(graph: Graph) -> None:
         if graph.done is None:
             executor.spin()
         else:
-            executor.spin_until_future_complete(graph.done)
-            if graph.done.done():
-                graph.done.result()  # raises what ended it, if that was an error
+            _spin_until(graph.done, executor)
     finally:
         _ignore_signals()
         executor.shutdown()
         destroy(graph.nodes)
+
+
+def _spin_until(done: Future, executor: SingleThreadedExecutor) -> None:
+    """Spin until ``done`` is, and raise what ended it, if that was an error.
+
+    The executor's own method for this leaves something on the future for every callback that it
+    executes, so a process that lives for days would grow and grow.
+    """
+    done.add_done_callback(lambda _: executor.create_task(lambda: None))  # wakes it
+    while executor.context.ok() and not done.done():
+        executor.spin_once()
+    if done.done():
+        done.result()
 
 
 def destroy(nodes: Iterable[Node]) -> None:

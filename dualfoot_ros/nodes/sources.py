@@ -6,10 +6,15 @@ from pathlib import Path
 from typing import NamedTuple
 from urllib.parse import unquote, urlsplit
 
+from rclpy.exceptions import InvalidTopicNameException
+from rclpy.expand_topic_name import expand_topic_name
+from rclpy.validate_full_topic_name import validate_full_topic_name
+
 from ..core.errors import ConfigError
 from ..core.series import ImuSeries
 from ..drivers import parse_uri
 from ..recording import RecordingError, read_bag
+from .shell import in_one_line
 
 RECORDED = "file"
 DEVICE = "device"
@@ -36,7 +41,7 @@ def parse(uri: str) -> Source:
     Raises
     ------
     ConfigError
-        For an unknown scheme; says what is allowed.
+        For an unknown scheme, or what cannot be the name of a topic; says what is allowed.
     SourceError
         For a device with an unknown format or option; says which.
     """
@@ -54,7 +59,19 @@ def parse(uri: str) -> Source:
         target = target.replace("//", "/")  # topic://imu is a name in the node's namespace
     if not target.strip("/"):
         raise ConfigError(f"parameter 'source' is '{uri}' and names nothing; allowed is {ALLOWED}")
+    if parts.fragment:
+        raise ConfigError(f"parameter 'source' is '{uri}'; write %23 for a '#' in a name")
+    if parts.scheme == "topic":
+        _check_name(uri, target)
     return Source(parts.scheme, target)
+
+
+def _check_name(uri: str, name: str) -> None:
+    try:
+        validate_full_topic_name(expand_topic_name(name, "imu_adapter", "/"))
+    except (ValueError, InvalidTopicNameException) as error:
+        reason = in_one_line(error)
+        raise ConfigError(f"parameter 'source' is '{uri}' and names no topic: {reason}") from None
 
 
 def is_live(source: Source) -> bool:

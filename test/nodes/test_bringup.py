@@ -1,6 +1,9 @@
 import signal
+from pathlib import Path
 
 import numpy as np
+import pytest
+from drivers import frames
 
 from dualfoot_ros.recording import list_topics, read_bag
 
@@ -54,3 +57,70 @@ def test_adapters_have_their_own_sections_in_one_file(program, tmp_path):
     running.wait_for("topic '/a' has no publisher")
     running.wait_for("topic '/b' has no publisher")
     assert "frames.odom=map" in running.output and "sync=external" in running.output
+
+
+@pytest.fixture
+def with_sources(program, tmp_path):
+    """Start bringup with the sources of the two feet."""
+
+    def start(left, right="topic:///b"):
+        path = tmp_path / "sources.yaml"
+        sections = [
+            f"/**/{foot}/imu_adapter:\n  ros__parameters:\n    source: '{source}'\n"
+            for foot, source in (("left", left), ("right", right))
+        ]
+        path.write_text("".join(sections))
+        return program("bringup", "--ros-args", "--params-file", path, "-r", "__ns:=/me")
+
+    return start
+
+
+@pytest.mark.parametrize(
+    ("source", "said"),
+    [
+        ("imu", "parameter 'source' is 'imu'; allowed is topic:///NAME"),
+        ("topic:///left foot", "names no topic"),
+        ("serial:///dev/x", "does not say what the device sends"),
+        ("udp://:8000?format=magic", "format is 'magic'; allowed is one of mcu"),
+        ("tcp://here?format=mcu", "the address is 'here'; allowed is HOST:PORT"),
+        ("ble://foot", "the Bluetooth address is 'foot'"),
+        ("file:///no.bin?format=mcu", "the file '/no.bin' does not exist"),
+        ("file:///no/such.csv", "there is no file '/no/such.csv'"),
+    ],
+)
+def test_a_bad_source_of_one_foot_ends_it_all_with_the_node_s_name(with_sources, source, said):
+    running = with_sources("topic:///a", source)
+    assert running.code() == 2
+    assert "bringup: error: /me/right/imu_adapter: " in running.output
+    assert said in running.output and "Traceback" not in running.output
+    assert "[ERROR]" not in running.output, "one sentence, not a log line besides"
+
+
+def test_a_file_that_cannot_be_read_ends_it_too_though_that_comes_out_later(with_sources):
+    unreadable = Path("/proc/self/mem")
+    if not unreadable.exists():
+        pytest.skip("there is no file here that can be opened and not be read")
+    running = with_sources(f"file://{unreadable}?format=mcu")
+    assert running.code() == 2
+    assert "bringup: error: /me/left/imu_adapter: source 'file:///proc/" in running.output
+    assert "Traceback" not in running.output
+
+
+@pytest.mark.parametrize(
+    "source", ["serial:///dev/no_such_port?format=mcu", "tcp://127.0.0.1:1?format=mcu"]
+)
+def test_a_device_that_is_not_there_yet_is_reported_and_waited_for(with_sources, source):
+    running = with_sources(source)
+    running.wait_for(f"[me.left.imu_adapter]: source '{source}' is not there and is tried again")
+    running.wait_for("topic '/b' has no publisher")
+    running.send(signal.SIGINT)
+    assert running.code() == 0
+
+
+def test_it_ends_when_the_files_of_both_feet_are_over(with_sources, tmp_path):
+    path = tmp_path / "capture.bin"
+    path.write_bytes(frames.stream("mcu", 300))
+    source = f"file://{path}?format=mcu&speed=5"
+    running = with_sources(source, source)
+    assert running.code() == 0
+    assert running.output.count("played 300 samples, the file is over") == 2

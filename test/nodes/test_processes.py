@@ -102,6 +102,7 @@ def test_an_argument_that_is_not_for_ros_is_refused(program):
         ("imu_adapter", "source:=file:///no.bin?format=mcu", "'/no.bin' does not exist"),
         ("imu_adapter", "mounting.axes:=x,-y,z", "axes are 'x,-y,z': they mirror the sensor"),
         ("imu_adapter", "source:=file:///no/such.csv", "there is no file '/no/such.csv'"),
+        ("imu_adapter", "source:=topic:///left foot", "'topic:///left foot' and names no topic"),
     ],
 )
 def test_a_source_that_is_not_there_is_one_sentence_and_exit_code_2(

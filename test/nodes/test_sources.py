@@ -50,6 +50,23 @@ def test_what_is_no_source_is_refused_with_what_is_allowed(uri):
         parse(uri)
 
 
+@pytest.mark.parametrize(
+    ("uri", "said"),
+    [
+        ("topic:///left foot", "characters other than"),
+        ("topic://9/imu", "must not start with a number"),
+        ("topic:///imu/", "must not end with a forward slash"),
+        ("topic:///{foot}/imu", "unknown substitution"),
+        ("topic:///imu#1", "write %23"),
+        ("file:///data/walk#1", "write %23"),
+    ],
+)
+def test_a_name_that_no_topic_can_have_is_refused_in_one_line(uri, said):
+    with pytest.raises(ConfigError, match=said) as refusal:
+        parse(uri)
+    assert f"'{uri}'" in str(refusal.value) and "\n" not in str(refusal.value)
+
+
 def test_one_foot_of_a_bag_is_a_source(walk_bag):
     loaded = load(parse(f"file://{walk_bag}"), "right")
     expected = read_bag(walk_bag).right

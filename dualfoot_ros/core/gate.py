@@ -28,9 +28,10 @@ class PairGate:
 
         "time_jumped" is no refusal but says that a new recording begins with this pair.
         """
-        for value in values.tolist():
-            if not -LIMIT < value < LIMIT:
-                return "out_of_range" if math.isfinite(value) else "not_finite"
+        if not math.hypot(*values.tolist()) < LIMIT:  # seldom: so look at each
+            for value in values.tolist():
+                if not -LIMIT < value < LIMIT:
+                    return "out_of_range" if math.isfinite(value) else "not_finite"
         if self.last_ns is None:
             return None
         if stamp > self.last_ns:

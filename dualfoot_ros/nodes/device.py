@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 import time
 from collections.abc import Callable
 
@@ -21,8 +22,9 @@ Take = Callable[[int | None, int, FloatArray], None]
 class Device:
     """Hands on ``(device_ns or None, arrival_ns, values (6,))`` from a thread of its own.
 
-    ``ended`` is called once, from that thread: without a reason when a file is over, with one
-    when reading has failed for good.
+    ``begin`` is called, with the event that says stop, when a link has come and before it is
+    read: a file waits there for its listeners.  ``ended`` is called once: without a reason when a
+    file is over, with one when reading has failed for good.  Both are called from that thread.
     """
 
     def __init__(
@@ -33,6 +35,7 @@ class Device:
         silence_s: float,
         take: Take,
         ended: Callable[[SourceError | None], None],
+        begin: Callable[[threading.Event], None] | None = None,
     ) -> None:
         """Put it together; :meth:`start` starts.
 
@@ -41,7 +44,7 @@ class Device:
         SourceError
             When the URI, an option in it or the file it names is not allowed.
         """
-        self._node, self._hand_on, self._ended = node, take, ended
+        self._node, self._hand_on, self._ended, self._begin = node, take, ended, begin
         self._silence_s = silence_s
         self.without_time = 0
         self.temperature = math.nan
@@ -91,12 +94,28 @@ class Device:
         log, uri = self._node.get_logger(), self.source.uri
         if state is State.CONNECTED:
             log.info(f"source '{uri}' is connected")
+            self._wait_to_begin()
         elif state is State.WAITING:
             log.warning(f"source '{uri}' is not there and is tried again: {reason}")
         elif state is State.FAILED and self._node.context.ok():
             self._ended(SourceError(f"source '{uri}' has failed: {reason}"))
         elif state is State.ENDED:
-            self._ended(None)
+            self._ended(self._emptiness())
+
+    def _wait_to_begin(self) -> None:
+        if self._begin is not None:
+            self._last_s = math.inf  # waiting is no silence
+            self._begin(self.source.reader.stopping)
+            self._last_s = time.monotonic()
+
+    def _emptiness(self) -> SourceError | None:
+        """Return what to say of a file without any sample, or None when it had some."""
+        found = self.source.decoder.counters
+        if found["samples"]:
+            return None
+        return SourceError(
+            f"source '{self.source.uri}' has no sample in {found['bytes']} bytes: check format"
+        )
 
     def describe(self, status: Status) -> None:
         """Put link, decoder, checks and counter into a report."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,7 @@ from .device import Device
 from .diagnostics import WARN, Rates, Reporter, Status
 from .messages import imu_values, new_imu, set_imu_values, set_time, to_ns
 from .parameters import declare, group
-from .player import Player, Sample, in_order
+from .player import Player, Sample, in_order, wait_to_begin
 from .shell import Graph, Program, run_nodes
 from .stamper import Stamper
 from .suspicion import UnitSuspicion
@@ -102,14 +103,23 @@ class ImuAdapterNode(Node):
             self._input = Input(self, Imu, source.target, self._relay, qos.sensor(options.depth))
             self.watch = Watch(self, [self._input], options.silence)
         elif source.kind == sources.DEVICE:
-            checks = self.check.options
-            self.device = Device(
-                self, source.target, checks, options.silence, self._take, self._finish
-            )
-            self.check = self.device.source.check
-            self.device.start()
+            self._read_device(source, options.silence, group(Play, values, "play."))
         else:
             self._play_file(source, group(Play, values, "play."))
+
+    def _read_device(self, source: sources.Source, silence_s: float, play: Play) -> None:
+        begin = partial(wait_to_begin, play, self._has_listener)
+        self.device = Device(
+            self,
+            source.target,
+            self.check.options,
+            silence_s,
+            self._take,
+            self._finish,
+            None if sources.is_live(source) else begin,
+        )
+        self.check = self.device.source.check
+        self.device.start()
 
     def _play_file(self, source: sources.Source, play: Play) -> None:
         series = {self._foot: sources.load(source, self._foot)}
@@ -118,10 +128,13 @@ class ImuAdapterNode(Node):
             self._play,
             play,
             alive=self.context.ok,
-            ready=lambda: self._out.get_subscription_count() > 0,
+            ready=self._has_listener,
             finished=self._finish,
         )
         self.player.start()
+
+    def _has_listener(self) -> bool:
+        return bool(self._out.get_subscription_count() > 0)
 
     def _stamping(self, source: sources.Source) -> Stamping:
         policy = self._options.stamp

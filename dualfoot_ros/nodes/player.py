@@ -14,6 +14,8 @@ from ..core.trajectory import FEET
 from ..options import Play
 
 GATE_POLL = 0.0005  # s
+READY_POLL = 0.01  # s
+DISCOVERY_S = 0.5  # a subscriber that is there may take 0.1 s more to find the publisher
 LONGEST_NAP = 0.1  # s, so that a stop is obeyed soon
 
 
@@ -91,10 +93,7 @@ class Player:
                 raise
 
     def _play_all(self) -> None:
-        until = time.monotonic() + self._play.wait
-        while not self._ready() and time.monotonic() < until and not self._stop.wait(0.01):
-            pass
-        self._stop.wait(self._play.delay)
+        wait_to_begin(self._play, self._ready, self._stop)
         self._play_once()
         while self._play.loop and not self._stop.is_set():
             self._play_once()
@@ -121,6 +120,17 @@ class Player:
         while (left_s := due_s - time.monotonic()) > 0.0:
             if self._stop.wait(min(left_s, LONGEST_NAP)):
                 return
+
+
+def wait_to_begin(play: Play, ready: Callable[[], bool], stop: threading.Event) -> None:
+    """Wait until ``ready``, ``play.wait`` at most, and then ``play.delay``; not when stopped."""
+    until = time.monotonic() + play.wait
+    while not ready():
+        if time.monotonic() >= until or stop.wait(READY_POLL):
+            break
+    else:
+        stop.wait(min(play.wait, DISCOVERY_S))
+    stop.wait(play.delay)
 
 
 def _table(series: ImuSeries | PressureSeries) -> FloatArray:

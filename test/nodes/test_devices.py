@@ -153,6 +153,79 @@ def test_captured_bytes_are_played_with_the_device_s_own_time_to_their_end(bench
     np.testing.assert_array_equal(steps, frames.PERIOD_US * 1000)
 
 
+def adapter_of(bench, source, **values):
+    """Return an adapter that nobody listens to."""
+    return bench.add(ImuAdapterNode, {"source": source, **values}, namespace="left")
+
+
+def listen_late(bench):
+    """Subscribe to what the adapter publishes; return the growing list of it."""
+    got, probe = [], bench.plain()
+    probe.create_subscription(Imu, "/left/imu/data_raw", got.append, qos.sensor(10_000))
+    return got
+
+
+@pytest.mark.parametrize("kind", ["captured bytes", "a bag"])
+def test_a_file_waits_for_a_subscriber_and_loses_no_sample_to_it(bench, tmp_path, walk_bag, kind):
+    path = tmp_path / "capture.bin"
+    path.write_bytes(frames.stream("mcu", 300))
+    source = (
+        f"file://{path}?format=mcu&speed=0" if kind == "captured bytes" else f"file://{walk_bag}"
+    )
+    values = {"play.wait": 60.0, "play.rate": 100.0, "reports.period": 0.1, "input.silence": 0.1}
+    node = adapter_of(bench, source, **values)
+    reports, probe = [], bench.plain()
+    probe.create_subscription(DiagnosticArray, "/diagnostics", reports.append, 10)
+    bench.until(lambda: len(reports) > 4, "reports")
+    assert node.counters["relayed"] == 0
+    assert reports[-1].status[0].level == DiagnosticStatus.OK
+    got = listen_late(bench)
+    bench.until(node.done.done, "the end of the file")
+    bench.until(lambda: len(got) == node.counters["relayed"], "every sample")
+    assert len(got) >= 300
+
+
+def test_a_capture_that_nobody_listens_to_is_played_after_the_longest_wait(bench, tmp_path):
+    path = tmp_path / "capture.bin"
+    path.write_bytes(frames.stream("mcu", 30))
+    node = adapter_of(bench, f"file://{path}?format=mcu&speed=0", **{"play.wait": 0.2})
+    bench.until(node.done.done, "the end of the file")
+    assert node.counters["relayed"] == 30
+
+
+def test_a_capture_that_waits_can_be_stopped(bench, tmp_path):
+    path = tmp_path / "capture.bin"
+    path.write_bytes(frames.stream("mcu", 30))
+    values = {"play.wait": 3600.0, "play.delay": 3600.0}
+    node = adapter_of(bench, f"file://{path}?format=mcu&speed=0", **values)
+    bench.until(lambda: node.device.source.state is State.CONNECTED, "the file")
+    node.device.stop()
+    assert node.counters["relayed"] == 0 and node.device.source.state is State.STOPPED
+
+
+def test_a_live_device_waits_for_nobody(bench, tmp_path):
+    device = PluggedDevice(tmp_path / "ttyUSB0")
+    device.plug()
+    values = {"play.wait": 3600.0, "play.delay": 3600.0, "stamp": "header"}
+    node = adapter_of(bench, f"serial://{device.path}?format=mcu", **values)
+    bench.until(lambda: node.device.source.state is State.CONNECTED, "the port")
+    device.send(frames.stream("mcu", 20))
+    bench.until(lambda: node.counters["relayed"] == 20, "samples")
+    device.unplug()
+
+
+@pytest.mark.parametrize(("content", "size"), [(b"", 0), (b"no frames at all", 16)])
+def test_a_capture_without_any_sample_is_an_error(bench, tmp_path, content, size):
+    path = tmp_path / "capture.bin"
+    path.write_bytes(content)
+    node = adapter_of(bench, f"file://{path}?format=mcu", **{"play.wait": 0.0})
+    bench.until(node.done.done, "the end of the file")
+    with pytest.raises(
+        SourceError, match=rf"capture\.bin.* no sample in {size} bytes: check format"
+    ):
+        node.done.result()
+
+
 def test_a_capture_that_cannot_be_read_ends_the_node_with_its_error(bench, tmp_path, monkeypatch):
     path = tmp_path / "capture.bin"
     path.write_bytes(b"")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from .core.mounting import Mounting
 from .core.parameters import Parameters, ParameterSpec, parameter
 from .drivers.checks import Checks
 from .timing import ClockModel, Stamping, Sync
@@ -107,18 +108,6 @@ class AdapterOptions(Parameters):
         "file of 'dualfoot calibrate', in the axes of the source (empty: none); the foot is that "
         "of the namespace",
     )
-
-
-@dataclass(frozen=True)
-class Mounting(Parameters):
-    """From the sensor's axes to forward-left-up: axes named anew, then turned about fixed axes."""
-
-    axes: str = parameter(
-        "x,y,z", "axes of the sensor that point forward, left and up, as in y,-x,z"
-    )
-    roll: float = parameter(0.0, "about x, first", unit="rad", minimum=-6.3, maximum=6.3)
-    pitch: float = parameter(0.0, "about y, second", unit="rad", minimum=-6.3, maximum=6.3)
-    yaw: float = parameter(0.0, "about z, last", unit="rad", minimum=-6.3, maximum=6.3)
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,13 @@ from pathlib import Path
 from ..core.aids import WORN
 from ..core.series import PressureSeries
 from ..core.trajectory import FEET
+from ..core.units import FORCE_UNITS, RATE_UNITS
 from ..recording import Recording, checks, write_bag
 from ..recording.atomic import check_target
 from ..recording.errors import RecordingError
 from ..recording.importers import FORMATS, ImportOptions, import_recording
 from ..recording.importers.axes import IDENTITY
 from ..recording.importers.pressure_csv import read_pressure
-from ..recording.importers.units import FORCE_UNITS, RATE_UNITS
 from ..recording.open_bag import METADATA
 from ..recording.write import STORAGES
 from .progress import progress

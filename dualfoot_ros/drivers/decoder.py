@@ -8,8 +8,10 @@ the second valid frame after any garbage.
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import dataclass
 from typing import Protocol
 
+from ..core.parameters import Parameters, parameter
 from .sample import Sample, Vector, is_finite
 
 COUNTERS = {
@@ -47,6 +49,19 @@ class Decoder(Protocol):
     def buffered(self) -> int:
         """Number of bytes kept for the next call."""
         ...
+
+
+@dataclass(frozen=True)
+class FieldOptions(Parameters):
+    """Options of a decoder whose device sends the magnetic field in a unit of its own."""
+
+    field_unit: float = parameter(
+        0.0,
+        "T for 1 in the device's arbitrary unit; 0 leaves the magnetic field out",
+        unit="T",
+        minimum=0.0,
+        maximum=1e-3,
+    )
 
 
 class PacketCounter:

@@ -7,13 +7,13 @@ device pads notifications with zeros, so the length does not tell the mode.
 
 from __future__ import annotations
 
-import math
 import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ..core.parameters import Parameters, parameter
-from .decoder import deliver
+from ..core.parameters import parameter
+from ..core.units import DEGREE
+from .decoder import FieldOptions, deliver
 from .sample import Sample, Vector, scaled
 
 STAMP = struct.Struct("<I")
@@ -21,7 +21,6 @@ MOTION = struct.Struct("<6f")
 FIELD = struct.Struct("<3h")
 FIELD_STEPS = 4096.0  # the field comes as fixed point with 12 bits of fraction
 MAX_MESSAGE = 63
-RADIAN = math.pi / 180.0
 
 
 @dataclass(frozen=True)
@@ -43,18 +42,11 @@ PAYLOADS = {
 
 
 @dataclass(frozen=True)
-class DotOptions(Parameters):
+class DotOptions(FieldOptions):
     """Options of the DOT decoder; the BLE transport asks the device for the same payload."""
 
     payload: str = parameter(
         "rate", "measurement mode that the device is set to", choices=tuple(PAYLOADS)
-    )
-    field_unit: float = parameter(
-        0.0,
-        "T for 1 in the device's arbitrary unit; 0 leaves the magnetic field out",
-        unit="T",
-        minimum=0.0,
-        maximum=1e-3,
     )
 
 
@@ -85,7 +77,7 @@ class DotDecoder:
             return samples
         (ticks,) = STAMP.unpack_from(data)
         values = MOTION.unpack_from(data, self._payload.motion_at)
-        force, rate = scaled(values[:3], 1.0), scaled(values[3:], RADIAN)
+        force, rate = scaled(values[:3], 1.0), scaled(values[3:], DEGREE)
         sample = Sample(arrival_ns, force, rate, ticks, 1000, 32, magnetic_field=self._field(data))
         deliver(self.counters, samples, sample)
         return samples

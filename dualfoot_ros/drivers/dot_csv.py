@@ -6,11 +6,11 @@ takes lines as they come (a file that still grows, a pipe) and only refuses dama
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from dataclasses import dataclass
 
 from ..core.parameters import Parameters, parameter
+from ..core.units import DEGREE
 from .decoder import PacketCounter, deliver
 from .framing import DelimitedFramer
 from .sample import Sample, Vector, scaled
@@ -19,7 +19,6 @@ FIRST = "PacketCounter"
 STAMP = "SampleTimeFine"
 FORCE, RATE, FIELD = (tuple(f"{name}_{axis}" for axis in "XYZ") for name in ("Acc", "Gyr", "Mag"))
 MAX_LINE = 1024
-RADIAN = math.pi / 180.0
 
 
 @dataclass(frozen=True)
@@ -98,7 +97,7 @@ class DotCsvDecoder:
         sample = Sample(
             arrival_ns,
             force,
-            scaled(rate, RADIAN),
+            scaled(rate, DEGREE),
             ticks,
             1000,
             32,

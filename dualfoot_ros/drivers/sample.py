@@ -5,10 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-Vector = tuple[float, float, float]
-
-STANDARD_GRAVITY = 9.80665
-"""m/s^2 in one g, by definition."""
+from ..core.mounting import Vector
 
 
 class Sample(NamedTuple):

@@ -46,8 +46,10 @@ class Source:
 
         Raises
         ------
+        ConfigError
+            When the axes are not allowed.
         SourceError
-            When the URI, the file it names or the axes are not allowed, or bleak is missing.
+            When the URI or the file it names is not, or bleak is missing.
         """
         parsed = parse_uri(uri)
         self.uri = uri

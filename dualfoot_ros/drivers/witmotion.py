@@ -8,15 +8,15 @@ so the framer asks a frame that does not follow another for a second one behind 
 from __future__ import annotations
 
 import datetime
-import math
 import struct
 from collections import Counter
 from dataclasses import dataclass
 
 from ..core.parameters import Parameters, parameter
+from ..core.units import DEGREE, STANDARD_GRAVITY
 from .decoder import deliver
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
-from .sample import STANDARD_GRAVITY, Sample, Vector, scaled
+from .sample import Sample, Vector, scaled
 
 HEADER = 0x55
 LENGTH = 11
@@ -27,7 +27,6 @@ DATE = struct.Struct("<6BH")
 FULL_SCALE = 32768.0
 TICK_NS = 1_000_000
 EPOCH = datetime.datetime(2000, 1, 1)
-RADIAN = math.pi / 180.0
 
 
 @dataclass(frozen=True)
@@ -61,7 +60,7 @@ class WitMotionDecoder:
         self._framer = HeaderFramer(HEADER, probe, LENGTH, self.counters, after_a_gap)
         self.max_buffer = self._framer.max_buffer
         self._force_scale = options.force_range * STANDARD_GRAVITY / FULL_SCALE
-        self._rate_scale = options.rate_range * RADIAN / FULL_SCALE
+        self._rate_scale = options.rate_range * DEGREE / FULL_SCALE
         self._field_unit = options.field_unit
         self.reset()
 

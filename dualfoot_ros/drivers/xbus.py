@@ -13,8 +13,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..core.parameters import Parameters, parameter
-from .decoder import PacketCounter, deliver
+from .decoder import FieldOptions, PacketCounter, deliver
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
 from .sample import Sample, Vector, scaled
 
@@ -37,16 +36,8 @@ Items = dict[int, tuple[int, bytes]]
 
 
 @dataclass(frozen=True)
-class XbusOptions(Parameters):
+class XbusOptions(FieldOptions):
     """Options of the Xbus decoder."""
-
-    field_unit: float = parameter(
-        0.0,
-        "T for 1 in the device's arbitrary unit; 0 leaves the magnetic field out",
-        unit="T",
-        minimum=0.0,
-        maximum=1e-3,
-    )
 
 
 class XbusDecoder:

@@ -13,10 +13,10 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ..core.parameters import Parameters, parameter
-from .decoder import deliver
+from ..core.units import DEGREE, STANDARD_GRAVITY
+from .decoder import FieldOptions, deliver
 from .framing import DelimitedFramer
-from .sample import STANDARD_GRAVITY, Sample, Vector, scaled
+from .sample import Sample, Vector, scaled
 
 END, ESCAPE, ESCAPED_END, ESCAPED_ESCAPE = b"\n", b"\xdb", b"\xdb\xdc", b"\xdb\xdd"
 STAMP = struct.Struct("<Q")
@@ -24,20 +24,11 @@ VALUES = {"I": 6, "M": 3, "T": 1}
 """Inertial, magnetometer and temperature messages, with their number of values."""
 BINARY = 0x80
 MAX_MESSAGE = 512
-RADIAN = math.pi / 180.0
 
 
 @dataclass(frozen=True)
-class XImu3Options(Parameters):
+class XImu3Options(FieldOptions):
     """Options of the x-IMU3 decoder."""
-
-    field_unit: float = parameter(
-        0.0,
-        "T for 1 in the device's arbitrary unit; 0 leaves the magnetic field out",
-        unit="T",
-        minimum=0.0,
-        maximum=1e-3,
-    )
 
 
 class XImu3Decoder:
@@ -95,7 +86,7 @@ class XImu3Decoder:
         elif letter == "M":
             self._field = scaled(values, self._field_unit) if self._field_unit else None
         else:
-            force, rate = scaled(values[3:], STANDARD_GRAVITY), scaled(values[:3], RADIAN)
+            force, rate = scaled(values[3:], STANDARD_GRAVITY), scaled(values[:3], DEGREE)
             extras = self._temperature, self._field
             deliver(
                 self.counters, samples, Sample(arrival_ns, force, rate, ticks, 1000, 64, *extras)

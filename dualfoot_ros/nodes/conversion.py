@@ -6,9 +6,10 @@ import numpy as np
 from sensor_msgs.msg import Imu
 
 from ..calibration import SensorCalibration
+from ..core.mounting import Mounting
 from ..core.series import FloatArray
-from ..drivers.conditioning import FORCE_UNITS, RATE_UNITS, axes_matrix, product, rotation
-from ..options import Covariance, Mounting, Units
+from ..core.units import FORCE_UNITS, RATE_UNITS
+from ..options import Covariance, Units
 
 
 class Conversion:
@@ -25,10 +26,10 @@ class Conversion:
 
         Raises
         ------
-        SourceError
+        ConfigError
             When ``mounting.axes`` are not three different, right-handed ones.
         """
-        self._rotation = mounting_rotation(mounting)
+        self._rotation = np.array(mounting.rotation())
         self._force = FORCE_UNITS[units.specific_force]
         self._rate = RATE_UNITS[units.angular_rate]
         self._force_std, self._rate_std = (
@@ -78,15 +79,3 @@ class Conversion:
             return received
         turned = self._rotation @ received.reshape(3, 3) @ self._rotation.T
         return (scale * scale * turned).ravel()
-
-
-def mounting_rotation(mounting: Mounting) -> FloatArray:
-    """Return the rotation (3, 3) from the sensor's axes to forward-left-up, Rz Ry Rx ``axes``.
-
-    Raises
-    ------
-    SourceError
-        When the axes are not three different, right-handed ones.
-    """
-    turn = rotation(mounting.roll, mounting.pitch, mounting.yaw)
-    return np.array(product(turn, axes_matrix(mounting.axes)))

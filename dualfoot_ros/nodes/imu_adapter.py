@@ -63,9 +63,9 @@ class ImuAdapterNode(Node):
         Raises
         ------
         ConfigError
-            For bad parameters or a source that names nothing.
+            For bad parameters, axes that are none or a source that names nothing.
         SourceError
-            For a device with an unknown format or option, or axes that are none.
+            For a device with an unknown format or option.
         CalibrationError
             When the calibration file cannot be used.
         RecordingError

@@ -81,7 +81,7 @@ def test_a_bag_that_exists_is_kept_unless_overwriting_is_asked_for(tmp_path, pai
         ([], "no source given"),
         (["missing.mat"], "there is no file 'missing.mat'"),
         (["L.csv", "R.csv"], "give --left FILE and --right FILE"),
-        (["--left", "L.csv", "--right", "R.csv", "--axes=+x+y-z"], "left-handed"),
+        (["--left", "L.csv", "--right", "R.csv", "--axes=+x+y-z"], "they mirror the sensor"),
         (["broken.mat"], "no readable .mat file"),
     ],
 )

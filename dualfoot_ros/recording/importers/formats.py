@@ -59,6 +59,8 @@ def import_recording(options: ImportOptions, name: str = "auto") -> Recording:
 
     Raises
     ------
+    ConfigError
+        When the axes are none.
     RecordingError
         When there is no such format, or the files are not as it says.
     OSError

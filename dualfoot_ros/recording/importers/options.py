@@ -20,7 +20,7 @@ class ImportOptions:
     right_offset_s : added to every stamp of the right foot, s
     field_scale : tesla per unit of the magnetometer, 0 leaves it out
     left_topic, right_topic : sensor_msgs/Imu topics of a bag; None for those this package writes
-    force_unit, rate_unit : units of a bag's specific force and angular rate, as in ``units.py``
+    force_unit, rate_unit : units of a bag's samples, as in ``core/units.py``
     """
 
     sources: tuple[Path, ...] = ()

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from ...core.series import FloatArray, ImuSeries
 from ...core.trajectory import FEET
+from ...core.units import FORCE_UNITS, RATE_UNITS
 from ..errors import RecordingError
 from ..read import read_bag
 from ..recording import Recording
 from ..topics import Topics
 from . import axes
 from .options import ImportOptions
-from .units import FORCE_UNITS, RATE_UNITS, scale
 
 
 def load(options: ImportOptions) -> Recording:
@@ -20,14 +21,16 @@ def load(options: ImportOptions) -> Recording:
 
     Raises
     ------
+    ConfigError
+        When the axes are none.
     RecordingError
         When it is no bag, a unit is unknown, or neither topic is there.
     """
     if len(options.sources) != 1 or options.left or options.right:
         raise RecordingError("a bag holds both feet; give exactly one, without --left and --right")
     rotation = axes.parse(options.axes)
-    force = scale("force unit", options.force_unit, FORCE_UNITS)
-    rate = scale("rate unit", options.rate_unit, RATE_UNITS)
+    force = _scale("force unit", options.force_unit, FORCE_UNITS)
+    rate = _scale("rate unit", options.rate_unit, RATE_UNITS)
     default = Topics()
     topics = Topics(
         left=replace(default.left, imu=options.left_topic or default.left.imu),
@@ -55,6 +58,12 @@ def load(options: ImportOptions) -> Recording:
         notes=notes,
         topics=default,
     )
+
+
+def _scale(what: str, unit: str, known: Mapping[str, float]) -> float:
+    if unit not in known:
+        raise RecordingError(f"{what} is '{unit}'; allowed is one of {', '.join(known)}")
+    return known[unit]
 
 
 def _turned(

@@ -30,6 +30,8 @@ def load(options: ImportOptions) -> Recording:
 
     Raises
     ------
+    ConfigError
+        When the axes are none.
     RecordingError
         When a foot is missing or a file is no such export; names the file and the column.
     """
@@ -62,6 +64,8 @@ def read_sensor(path: Path, orientation: str = axes.IDENTITY) -> ImuSeries:
 
     Raises
     ------
+    ConfigError
+        When the axes are none.
     RecordingError
         When the file is no such export.
     OSError

@@ -8,17 +8,19 @@ from ..timing import ClockModel, ClockState, Stamping, Stamps
 from .diagnostics import ERROR, WARN, Status
 
 LARGEST_NS = (1 << 31) * 1_000_000_000  # what a stamp of ROS can hold
+LONG = 4.0  # times clock.settle
 
 
 class Stamper:
     """Stamps the samples of the feet; may be asked and told from different threads.
 
-    ``counters`` holds ``not_stamped``: samples whose clock says that they are not to be used,
-    or whose time no message can hold.
+    ``counters`` holds ``settling`` (samples withheld at first, until the clock of their device is
+    known) and ``not_stamped``: samples whose clock says that they are not to be used, or whose
+    time no message can hold.
     """
 
     def __init__(self, stamping: Stamping, model: ClockModel) -> None:
-        self.counters = {"not_stamped": 0}
+        self.counters = {"settling": 0, "not_stamped": 0}
         self._stamps, self._model = Stamps(stamping, model), model
         self._reported = 0
         self._lock = threading.Lock()
@@ -27,6 +29,9 @@ class Stamper:
         """Return the stamp in ns of one sample; None: it is not to be used."""
         with self._lock:
             found = self._stamps.stamp(foot, header_ns, arrival_ns)
+            if found is None and self._stamps.settling(foot):
+                self.counters["settling"] += 1
+                return None
         if found is not None and not 0 <= found < LARGEST_NS:
             found = None
         self.counters["not_stamped"] += found is None
@@ -44,6 +49,8 @@ class Stamper:
             status.values |= clock_values(foot, state)
             if state.phase == "refused":
                 status.note(ERROR, self._refusal(foot, state))
+            elif state.phase == "settling":
+                status.note(WARN, self._settling(foot, state))
         status.values |= {f"clock {name}": n for name, n in self._stamps.counters.items()}
         status.values |= self.counters
         if self.counters["not_stamped"] > self._reported:
@@ -55,6 +62,12 @@ class Stamper:
             f"the clock of the {foot} foot is off by {state.skew_ppm:.0f} ppm; beyond "
             f"{self._model.max_skew:g} ppm it is not fused: check the unit of its stamps"
         )
+
+    def _settling(self, foot: str, state: ClockState) -> str:
+        said = f"the clock of the {foot} foot is being learnt: {state.age_s:.1f} s so far"
+        if state.age_s > LONG * self._model.settle:
+            return f"{said}, too long: check the link and the unit of its stamps"
+        return f"{said}; its samples are withheld until it is known"
 
 
 def clock_values(foot: str, state: ClockState) -> dict[str, str | float | int]:

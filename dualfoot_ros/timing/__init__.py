@@ -3,10 +3,11 @@
 from .align import AlignReport, align, align_with_report
 from .aligner import Aligner
 from .clean import Clean, clean
-from .clock import ClockState, DeviceClock
+from .clock import DeviceClock
 from .clock_config import ClockModel
 from .clock_counter import Counter, Unwrapper
 from .clock_stamps import Stamping, Stamps
+from .clock_state import ClockState
 from .config import Sync
 from .errors import TimingError
 from .motion import offset_by_motion

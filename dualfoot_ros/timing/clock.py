@@ -2,43 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from .clock_config import ClockModel
 from .clock_envelope import Line, LowerEnvelope
+from .clock_settling import SURE, Settling
 from .clock_slew import SlewedTime
+from .clock_state import ClockState
 from .clock_suspects import Arrival, Suspects
 
-PHASES = ("empty", "acquiring", "tracking", "refused")
-COUNTERS = ("arrivals", "late", "early", "bad_skew", "restarts", "jumps")
+COUNTERS = ("arrivals", "settling", "late", "early", "bad_skew", "restarts", "jumps")
 OLD_NS = 1_000_000_000  # a stamp that much before the newest is no late sample
 STEER_NS = 100_000_000
 ACQUIRING_SLEW, ACQUIRING_TIME_S = 0.4, 0.1
 DOUBT = 25.0  # natural log of the odds at which a shift of all arrivals is no chance
-
-
-@dataclass(frozen=True)
-class ClockState:
-    """What is known about a device's clock.
-
-    Attributes
-    ----------
-    phase : "empty", "acquiring" (sensible, not yet good), "tracking", or "refused" (bad skew)
-    offset_ns : host minus device at the newest sample, least delay included
-    offset_std_s : its standard deviation, s; nan while nothing is known
-    skew_ppm : how much faster the device's clock runs
-    skew_std_ppm : its standard deviation
-    delay_s : mean delay of the fastest arrivals above the least one, s
-    epoch : restarts and jumps so far
-    """
-
-    phase: str
-    offset_ns: int
-    offset_std_s: float
-    skew_ppm: float
-    skew_std_ppm: float
-    delay_s: float
-    epoch: int
 
 
 class DeviceClock:
@@ -50,9 +25,13 @@ class DeviceClock:
     arrival: a least delay that is always there is part of the offset, unless ``config.delay``
     takes it off.
 
-    ``counters`` holds ``arrivals``, ``late`` (samples out of order), ``early`` (arrivals that
-    contradict all others and were left out), ``bad_skew`` (samples refused for it),
-    ``restarts`` (the device's time went back) and ``jumps`` (either clock was set).
+    At first samples are withheld, until the clock is known well enough (:class:`Settling`).  That
+    is so once only: after a restart or a jump stamps go on, as a walk may be under way.
+
+    ``counters`` holds ``arrivals``, ``settling`` (samples withheld at first), ``late`` (samples
+    out of order), ``early`` (arrivals that contradict all others and were left out),
+    ``bad_skew`` (samples refused for it), ``restarts`` (the device's time went back) and
+    ``jumps`` (either clock was set).
     """
 
     def __init__(self, config: ClockModel | None = None) -> None:
@@ -62,14 +41,17 @@ class DeviceClock:
         self._jump_ns = round(self.config.jump * 1e9)
         self._delay_ns = round(self.config.delay * 1e9)
         self._time: SlewedTime | None = None
+        self._settling = Settling(self.config)
 
     def update(self, device_ns: int, arrival_ns: int) -> int | None:
         """Learn from one sample and return its host time in ns; None: it is not to be used.
 
-        None is returned for stamps that contradict all others by more than ``config.jump`` and
-        for a clock with a skew beyond ``config.max_skew``; both are counted.
+        None is returned while too little is known at first, for stamps that contradict all others
+        by more than ``config.jump``, and for a clock with a skew beyond ``config.max_skew``; all
+        are counted.
         """
         arrival = Arrival(int(device_ns), int(arrival_ns))
+        self._arrived_ns = arrival.arrival_ns
         self.counters["arrivals"] += 1
         if self._time is None:
             self._begin([arrival])
@@ -77,6 +59,9 @@ class DeviceClock:
             return None
         if self.state.phase == "refused":
             self.counters["bad_skew"] += 1
+            return None
+        if self._withheld():
+            self.counters["settling"] += 1
             return None
         return self.translate(arrival.device_ns)
 
@@ -104,10 +89,11 @@ class DeviceClock:
         """What is known now."""
         if self._time is None:
             nan = float("nan")
-            return ClockState("empty", 0, nan, nan, nan, nan, self.epoch)
+            return ClockState("empty", 0.0, 0, nan, nan, nan, nan, self.epoch)
         line, now_s = self._line, self._seconds(self._newest_ns)
         return ClockState(
             phase=self._phase(line),
+            age_s=1e-9 * (self._arrived_ns - self._begun_ns),
             offset_ns=self._offset_ns(self._newest_ns) - self._delay_ns,
             offset_std_s=line.std_at(now_s),
             skew_ppm=1e6 * (1.0 / (1.0 + line.skew) - 1.0),
@@ -120,17 +106,28 @@ class DeviceClock:
         """Start anew from a few arrivals, oldest first."""
         config, first = self.config, arrivals[0]
         self._origin_ns = first.device_ns
-        self._base_ns = first.arrival_ns - first.device_ns
+        self._begun_ns, self._base_ns = first.arrival_ns, first.arrival_ns - first.device_ns
         self._envelope = LowerEnvelope(config.bin, config.bins, 1e-6 * config.skew_scale)
         self._suspects = Suspects()
+        self._settling.begin()
         self._late_since: Arrival | None = None
         self._least_late_s = 0.0
         self._tracking = False
         for device_ns, arrival_ns in arrivals:
             self._learn(device_ns, arrival_ns)
         self._newest_ns = max(a.device_ns for a in arrivals)
-        start = self._newest_ns
-        self._time = SlewedTime(start, start + self._offset_ns(start), self._line.skew)
+        self._time = self._on_the_line()
+
+    def _on_the_line(self) -> SlewedTime:
+        now_ns = self._newest_ns
+        return SlewedTime(now_ns, now_ns + self._offset_ns(now_ns), self._line.skew)
+
+    def _withheld(self) -> bool:
+        """Tell whether too little is known to use the sample that has just come."""
+        now_s = self._seconds(self._newest_ns)
+        if self._settling.ends(self._arrived_ns, self._envelope, now_s):
+            self._time = self._on_the_line()  # nothing was stamped so far that it has to meet
+        return not self._settling.over
 
     def _take(self, arrival: Arrival) -> bool:
         """Learn from a sample; return False when it is not to be used."""
@@ -223,9 +220,11 @@ class DeviceClock:
         return enough and abs(ahead_s) < self.config.tracking_std
 
     def _phase(self, line: Line) -> str:
-        surely = abs(line.skew) - 3.0 * line.skew_var**0.5
+        surely = abs(line.skew) - SURE * line.skew_var**0.5
         if surely > 1e-6 * self.config.max_skew and self._envelope.span_s >= self.config.settle:
             return "refused"
+        if not self._settling.over:
+            return "settling"
         return "tracking" if self._tracking else "acquiring"
 
     def _gate_ns(self, device_ns: int) -> int:

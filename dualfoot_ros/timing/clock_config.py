@@ -48,14 +48,15 @@ class ClockModel(Parameters):
     )
     settle: float = parameter(
         5.0,
-        "time from the first arrival until the model can count as tracking",
+        "time from the first arrival until samples are stamped however uncertain the offset is, "
+        "and until the model can count as tracking",
         unit="s",
         minimum=0.0,
         maximum=600.0,
     )
     tracking_std: float = parameter(
         0.005,
-        "uncertainty of the offset below which the model counts as tracking",
+        "uncertainty of the offset below which stamping begins, and the model counts as tracking",
         unit="s",
         minimum=1.0e-6,
         maximum=1.0,

@@ -89,6 +89,11 @@ class LowerEnvelope:
         """Time the points span."""
         return self._fastest[-1][0] - self._fastest[0][0] if self._fastest else 0.0
 
+    def fit(self, skew_scale: float) -> Line:
+        """Return the line as another prior of the skew has it; only after the first arrival."""
+        assert self.line is not None
+        return posterior(np.array(self._fastest), self.line.scale_s, skew_scale)
+
     def add(self, time_s: float, delayed_s: float) -> bool:
         """Take one arrival; return True when it told something new and the line was refitted.
 

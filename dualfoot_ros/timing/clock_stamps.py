@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 from ..core.parameters import Parameters, parameter
 from ..core.trajectory import FEET
-from .clock import ClockState, DeviceClock
+from .clock import DeviceClock
 from .clock_config import ClockModel
+from .clock_state import ClockState
 
 POLICIES = ("header", "device", "arrival")
 
@@ -65,13 +66,21 @@ class Stamps:
         }
 
     def stamp(self, foot: str, header_ns: int, arrival_ns: int) -> int | None:
-        """Return the stamp in ns of one sample; None: its clock says it is not to be used."""
+        """Return the stamp in ns of one sample; None: its clock says it is not to be used.
+
+        With the policy ``device`` that is so for all samples of the first seconds: see
+        :meth:`settling`.
+        """
         policy = self.config.policy(foot)
         if policy == "device":
             found = self.clocks[foot].update(header_ns, arrival_ns)
         else:
             found = header_ns if policy == "header" else arrival_ns
         return None if found is None else found + self.config.offset_ns(foot)
+
+    def settling(self, foot: str) -> bool:
+        """Tell whether the samples of ``foot`` are withheld until its clock is known."""
+        return foot in self.clocks and self.clocks[foot].state.phase == "settling"
 
     @property
     def states(self) -> dict[str, ClockState]:

@@ -2,7 +2,9 @@ import pytest
 
 from dualfoot_ros.nodes.diagnostics import ERROR, OK, WARN, Status
 from dualfoot_ros.nodes.fusion import FusionNode
+from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.stamper import Stamper
+from dualfoot_ros.nodes.time_sync import TimeSyncNode
 from dualfoot_ros.timing import ClockModel, Stamping
 
 from .samples import imu
@@ -45,10 +47,31 @@ def test_a_device_s_clock_is_told_with_offset_skew_and_their_uncertainty():
     assert 0.0 < values["left offset uncertainty (s)"] < 1e-3
 
 
+def test_a_clock_that_is_being_learnt_is_said_to_be_and_its_samples_are_counted_apart():
+    stamper, found = fed(30.0, 1, left="device")
+    status = described(stamper)
+    assert set(found) == {None} and stamper.counters == {"settling": 100, "not_stamped": 0}
+    assert status.level == WARN
+    assert status.message.startswith("the clock of the left foot is being learnt: 1.0 s so far")
+    assert status.values["left clock"] == "settling" and status.values["settling"] == 100
+    stamper, found = fed(30.0, 8, left="device")
+    assert found[-1] is not None and stamper.counters["settling"] == found.count(None) < 300
+    assert described(stamper).level == OK
+
+
+def test_a_clock_that_is_learnt_for_too_long_is_said_to_have_another_unit():
+    stamper = Stamper(Stamping(left="device"), ClockModel())
+    for k in range(3000):
+        assert stamper.stamp("left", k * STEP_NS // 1000, HOUR_NS + k * STEP_NS) is None
+    status = described(stamper)
+    assert status.level == WARN and "30.0 s so far" in status.message
+    assert "unit of its stamps" in status.message
+
+
 def test_a_skew_beyond_the_limit_is_reported_with_the_limit_and_no_stamp_is_given():
     stamper, found = fed(15_000.0, 20, left="device")
     status = described(stamper)
-    assert found[-1] is None and stamper.counters["not_stamped"] > 0
+    assert set(found) == {None} and stamper.counters["not_stamped"] > 0
     assert status.level == ERROR
     assert "left foot is off by 15" in status.message and "beyond 10000 ppm" in status.message
 
@@ -57,7 +80,7 @@ def test_a_time_that_no_message_can_hold_is_refused_and_counted():
     stamper = Stamper(Stamping(), ClockModel())
     assert stamper.stamp("left", -1, 0) is None
     assert stamper.stamp("left", 1 << 62, 0) is None
-    assert stamper.counters == {"not_stamped": 2}
+    assert stamper.counters == {"settling": 0, "not_stamped": 2}
     assert described(stamper).level == WARN and described(stamper).level == OK
 
 
@@ -76,3 +99,25 @@ def test_fusion_takes_the_policies_for_raw_streams_and_not_again_for_synchronise
         node.aligner.push = lambda foot, stamp_ns, values: seen.append(stamp_ns) or []
         node._receiver("right")(imu(7))
     assert seen == [2 * 10**9 + 7, 7]
+
+
+@pytest.mark.parametrize("kind", [FusionNode, TimeSyncNode])
+def test_no_node_hands_on_a_sample_before_the_clock_of_its_device_is_known(bench, kind):
+    seen = []
+    node = bench.add(kind, {"stamping.left": "device"})
+    node.aligner.push = lambda foot, stamp_ns, values: seen.append(stamp_ns) or []
+    for k in range(600):
+        node.inputs["left"].arrival_ns = HOUR_NS + k * STEP_NS
+        node._receiver("left")(imu(k * STEP_NS))
+    begun = 600 - len(seen)
+    assert 100 <= begun <= 300 and node.stamper.counters["settling"] == begun
+    assert seen[0] == pytest.approx(HOUR_NS + begun * STEP_NS, abs=5_000_000)
+
+
+def test_an_adapter_publishes_no_sample_before_the_clock_of_its_device_is_known(bench):
+    node = bench.add(ImuAdapterNode, {"stamp": "device"}, namespace="left")
+    for k in range(600):
+        node._input.arrival_ns = HOUR_NS + k * STEP_NS
+        node._relay(imu(k * STEP_NS))
+    withheld = node.stamper.counters["settling"]
+    assert 100 <= withheld <= 300 and node.counters["relayed"] == 600 - withheld

@@ -139,7 +139,7 @@ def _standstill(q: Quality) -> Iterator[str]:
     bias = ", ".join(f"{v * DEG:+.3f}" for v in stand.angular_rate)
     yield (
         f"stands still from {stand.start_s:.1f} to {stand.end_s:.1f} s after the start "
-        f"({stand.windows} windows; the stillest {stand.used} are used)"
+        f"({stand.windows} windows)"
     )
     yield (
         f"gyro bias ({bias}) deg/s, scatter {stand.angular_rate_scatter * DEG:.3f} deg/s; "

@@ -1,7 +1,8 @@
 """Levelling and gyro bias from a standstill of both feet: checked, refined until the first step.
 
-A person who stands is not still: the standing rate of a foot moves by 0.1-0.3 deg/s.  So the
-stand is cut into windows, each is checked, and only the stillest share of them is averaged.
+A person who stands is not still: the standing rate of a foot moves by 0.1-0.3 deg/s.  So a
+window slides over the stand sample by sample, is checked, and counts the more the stiller it is.
+Nothing is chosen, so one sample more or less changes the bias by next to nothing.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import numpy as np
 from .config import Alignment
 from .series import FloatArray
 
-WINDOWS = 80  # the newest that are kept, a minute of standing
+MEMORY_S = 30.0  # what is older than that fades: biases drift
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,7 @@ class FootStandstill:
     ----------
     specific_force : (3,) m/s^2, mean
     angular_rate : (3,) rad/s, mean: the gyro bias
-    rate_scatter : rad/s, standard deviation of that mean, from the scatter of the windows
+    rate_scatter : rad/s, standard deviation of that mean, from the scatter of the windows' means
     """
 
     specific_force: FloatArray
@@ -65,6 +66,45 @@ class Window:
         return None
 
 
+def stillness(scatter: FloatArray, floor: float) -> FloatArray:
+    """Return how much a window of angular rate ``scatter`` (rad/s) counts.
+
+    The scatter says how far a foot moves, and with it how far the mean of the window is off.
+    Below ``floor`` it is noise and quantisation, and says nothing.
+    """
+    weight: FloatArray = (scatter**2 + floor**2) ** -2.0
+    return weight
+
+
+class Average:
+    """Mean of the windows of one foot, weighted by their stillness.
+
+    Updated as in West 1979 (Communications of the ACM 22(9)), with weights that fade.
+    """
+
+    def __init__(self, floor: float, keep: float) -> None:
+        """Start empty; ``floor`` rad/s, ``keep`` is what is left of a weight one sample later."""
+        self._floor, self._keep = floor, keep
+        self._weight = self._squares = 0.0
+        self._mean, self._spread = np.zeros(6), np.zeros(3)
+
+    def add(self, window: Window, at: int) -> None:
+        """Take a window; the values of the foot start at index ``at``."""
+        mean, scatter = window.mean[at : at + 6], window.std[at + 3 : at + 6].max()
+        weight = float(stillness(scatter, self._floor))
+        self._weight = self._keep * self._weight + weight
+        self._squares = self._keep**2 * self._squares + weight**2
+        step = mean - self._mean
+        self._mean = self._mean + (weight / self._weight) * step
+        self._spread = self._keep * self._spread + weight * (step * (mean - self._mean))[3:]
+
+    def result(self, size: int) -> FootStandstill:
+        """Return the mean; windows of ``size`` samples overlap, one in ``size`` is independent."""
+        windows = self._weight**2 / self._squares / size
+        variance = float(self._spread.max()) / self._weight / max(1.0, windows - 1.0)
+        return FootStandstill(self._mean[:3], self._mean[3:], math.sqrt(variance))
+
+
 class Standstill:
     """Collects pairs while both feet stand and says what they tell."""
 
@@ -73,48 +113,48 @@ class Standstill:
         self._config, self._gravity = config, gravity
         self._size = max(5, round(config.window * rate_hz))
         self._needed = max(1, math.ceil(config.duration * rate_hz / self._size))
-        self._buffer = np.empty((self._size, 12))
+        self._keep = math.exp(-1.0 / (MEMORY_S * rate_hz))
+        self._samples = np.empty((self._size, 12))  # the newest, in a ring
         self._count = 0
-        self._windows: list[Window] = []
         self.complaint: str | None = None
         self.restarts = 0
+        self._clear()
+
+    def _clear(self) -> None:
+        floor = self._config.still_rate_std
+        self._feet = Average(floor, self._keep), Average(floor, self._keep)
+        self._still = 0
 
     @property
     def ready(self) -> bool:
         """Whether enough standstill has been collected."""
-        return len(self._windows) >= self._needed
+        return self._still > (self._needed - 1) * self._size
 
     def add(self, values: FloatArray, *, restart: bool = True) -> bool:
-        """Take one pair; return True when it completed a still window.
+        """Take one pair; return True when one more window's length of standstill is complete.
 
-        A window with motion discards what was collected, unless ``restart`` is False.
+        Motion discards what was collected, unless ``restart`` is False.
         """
-        self._buffer[self._count] = values
+        self._samples[self._count % self._size] = values
         self._count += 1
         if self._count < self._size:
             return False
-        self._count = 0
-        window = Window(self._buffer.mean(axis=0), self._buffer.std(axis=0))
+        window = Window(self._samples.mean(axis=0), self._samples.std(axis=0))
         self.complaint = window.complaint(self._config, self._gravity)
         if self.complaint is None:
-            self._windows.append(window)
-            del self._windows[:-WINDOWS]
-            return True
-        if restart:
-            self.restarts += bool(self._windows)
-            self._windows.clear()
+            self._collect(window)
+            return self._still % self._size == 1
+        if restart and self._still:
+            self.restarts += 1
+            self._clear()
         return False
 
-    def result(self) -> tuple[FootStandstill, FootStandstill]:
-        """Return what the stillest windows tell about the left and the right foot."""
-        left, right = (self._foot(6 * foot) for foot in range(2))
-        return left, right
+    def _collect(self, window: Window) -> None:
+        self._still += 1
+        for foot, average in enumerate(self._feet):
+            average.add(window, 6 * foot)
 
-    def _foot(self, at: int) -> FootStandstill:
-        keep = max(2, math.ceil(self._config.still_fraction * len(self._windows)))
-        ranked = sorted(self._windows, key=lambda w: float(w.std[at + 3 : at + 6].max()))[:keep]
-        means = np.array([w.mean[at : at + 6] for w in ranked])
-        spread = means[:, 3:].std(axis=0, ddof=1).max() if len(ranked) > 1 else 0.0
-        scatter = spread / math.sqrt(len(ranked))
-        mean = means.mean(axis=0)
-        return FootStandstill(mean[:3], mean[3:], float(scatter))
+    def result(self) -> tuple[FootStandstill, FootStandstill]:
+        """Return what the standstill tells about the left and the right foot."""
+        left, right = (average.result(self._size) for average in self._feet)
+        return left, right

@@ -20,10 +20,14 @@ class Alignment(Parameters):
         2.0, "standstill needed before output starts", unit="s", minimum=0.5, maximum=60.0
     )
     window: float = parameter(
-        0.75, "length of the windows that are checked", unit="s", minimum=0.1, maximum=5.0
+        0.75, "length of the window that is checked", unit="s", minimum=0.1, maximum=5.0
     )
-    still_fraction: float = parameter(
-        0.3, "share of the stillest windows that is used", minimum=0.05, maximum=1.0
+    still_rate_std: float = parameter(
+        1.0e-3,
+        "angular rate scatter below which windows count alike; above it by 1 / scatter^4",
+        unit="rad/s",
+        minimum=1e-6,
+        maximum=1.0,
     )
     max_rate_std: float = parameter(
         0.03, "angular rate scatter of a still window", unit="rad/s", minimum=1e-5, maximum=1.0

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..core.alignment import stillness
 from ..core.config import Alignment
 from ..core.series import FloatArray, ImuSeries
 
@@ -17,16 +18,15 @@ class Stand:
     Attributes
     ----------
     start_s, end_s : s from the first sample of the foot
-    windows, used : still windows, and how many of them (the stillest) the figures come from
-    specific_force : (3,) m/s^2, mean
-    angular_rate : (3,) rad/s, mean: the gyro bias
+    windows : how many still windows there are
+    specific_force : (3,) m/s^2, mean of the windows, the stiller ones counting more
+    angular_rate : (3,) rad/s, mean in the same way: the gyro bias
     angular_rate_scatter : rad/s, greatest standard deviation of the windows' means
     """
 
     start_s: float
     end_s: float
     windows: int
-    used: int
     specific_force: FloatArray
     angular_rate: FloatArray
     angular_rate_scatter: float
@@ -61,18 +61,19 @@ def first_stand(series: ImuSeries, config: Alignment | None = None) -> Stand | N
     run = _first_run(still, int(np.ceil(config.duration * series.rate_hz / size)))
     if run is None:
         return None
-    keep = max(2, int(np.ceil(config.still_fraction * (run[1] - run[0]))))
-    stillest = run[0] + np.argsort(rate_std[run[0] : run[1]])[:keep]
-    rates = rate[stillest].mean(axis=1)
+    used = slice(*run)
+    weights = stillness(rate_std[used], config.still_rate_std)
+    weights /= weights.sum()
+    rates = rate[used].mean(axis=1)
+    bias = weights @ rates
     seconds = (series.stamp_ns - series.stamp_ns[0]) * 1e-9
     return Stand(
         start_s=float(seconds[run[0] * size]),
         end_s=float(seconds[run[1] * size - 1]),
         windows=run[1] - run[0],
-        used=len(stillest),
-        specific_force=force[stillest].mean(axis=(0, 1)),
-        angular_rate=rates.mean(axis=0),
-        angular_rate_scatter=float(rates.std(axis=0).max()),
+        specific_force=weights @ force[used].mean(axis=1),
+        angular_rate=bias,
+        angular_rate_scatter=float(np.sqrt(weights @ (rates - bias) ** 2).max()),
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -15,7 +17,7 @@ from dualfoot_ros.core import (
 from dualfoot_ros.core.alignment import Standstill
 from dualfoot_ros.core.config import Alignment
 
-from .harness import GRAVITY, Pairs, open_session, standing_samples, walk
+from .harness import GRAVITY, Pairs, open_session, simulated, standing_samples, walk
 
 RATE = 100.0
 LEVEL = np.array([0.0, 0.0, GRAVITY])
@@ -86,20 +88,113 @@ def test_motion_during_the_alignment_starts_it_again_and_is_counted():
     assert any(c and "left foot: angular rate scatter" in c for c in complaints)
 
 
-def test_the_stillest_windows_are_chosen():
+def stood(values: np.ndarray, rate: float = RATE) -> Standstill:
+    """Return what a stand of pairs ``values`` (N, 12) gives."""
+    still = Standstill(Alignment(), GRAVITY, rate)
+    for row in values:
+        still.add(row, restart=False)
+    return still
+
+
+def test_the_stiller_part_of_the_stand_decides():
     """Half of the stand sways with a mean rate; the bias must come from the other half."""
-    config, rng = Alignment(duration=6.0), np.random.default_rng(0)
-    still = Standstill(config, GRAVITY, RATE)
-    size = round(config.window * RATE)
-    for k in range(8):
-        window = standing_samples(size, RATE, seed=k).values
-        if k % 2:
-            window[:, 3:6] += 0.01 + 0.008 * rng.normal(size=(size, 3))
-        for row in window:
-            still.add(row)
-    left, right = still.result()
+    rng = np.random.default_rng(0)
+    values = standing_samples(600, RATE).values
+    for start in (100, 350):
+        values[start : start + 150, 3:6] += 0.01 + 0.008 * rng.normal(size=(150, 3))
+    left, right = stood(values).result()
     assert np.abs(left.angular_rate).max() < 3e-4
     assert np.abs(right.angular_rate).max() < 3e-4
+
+
+@pytest.mark.parametrize("rate", [60.0, 100.0, 400.0])
+def test_a_foot_that_turns_evenly_without_noise_gives_its_rate_exactly(rate):
+    values = np.tile(np.r_[LEVEL, bias_of(0), LEVEL, bias_of(1)], (round(5.0 * rate), 1))
+    for foot, still in enumerate(stood(values, rate).result()):
+        assert np.allclose(still.angular_rate, bias_of(foot), rtol=0.0, atol=1e-15)
+        assert np.allclose(still.specific_force, LEVEL, rtol=0.0, atol=1e-13)
+        assert still.rate_scatter < 1e-15
+
+
+@cache
+def swaying(seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return 20 s of pairs of swaying feet (N, 12), and how far they really turned (N, 6), rad."""
+    stand = {"route": "standing", "rate": RATE, "standing": 20.0, "final_standing": 0.5}
+    made = simulated(**stand, seed=seed)
+    truths = [Rotation.from_quat(t.quaternion) for t in (made.left_truth, made.right_truth)]
+    turned = [(truth[0].inv() * truth).as_rotvec() for truth in truths]
+    return walk(**stand, seed=seed).values, np.hstack(turned)
+
+
+def errors_and_scatters(seconds: float, seeds: range) -> tuple[np.ndarray, np.ndarray]:
+    """Return the errors (M, 3) of the bias of a stand, and what it says they are (M,), rad/s."""
+    count, errors, scatters = round(seconds * RATE), [], []
+    for seed in seeds:
+        values, turned = swaying(seed)
+        for foot, still in enumerate(stood(values[:count]).result()):
+            mean = values[1:count, 6 * foot + 3 : 6 * foot + 6].mean(axis=0)
+            sway = turned[count - 1, 3 * foot : 3 * foot + 3] / seconds
+            errors.append(still.angular_rate - (mean - sway))
+            scatters.append(still.rate_scatter)
+    return np.array(errors), np.array(scatters)
+
+
+@pytest.mark.parametrize(("seconds", "limit_deg"), [(5.0, 0.07), (10.0, 0.04), (20.0, 0.022)])
+def test_sway_does_not_pull_the_bias_and_less_the_longer_the_stand(seconds, limit_deg):
+    """Standing feet turn by 0.1 deg/s here, and there and back again."""
+    errors, _ = errors_and_scatters(seconds, range(20))
+    assert np.degrees(np.sqrt(np.mean(errors**2))) < limit_deg
+
+
+@pytest.mark.parametrize(("seconds", "most"), [(3.0, 3.0), (5.0, 2.2), (10.0, 1.0), (20.0, 1.0)])
+def test_the_scatter_is_honest_about_the_error(seconds, most):
+    """Sway does not show itself within seconds; a long stand is better than it says."""
+    errors, scatters = errors_and_scatters(seconds, range(20))
+    squares = np.mean((errors / scatters[:, None]) ** 2)
+    assert 0.15 < squares < most
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_sample_more_or_less_changes_the_bias_by_next_to_nothing(seed):
+    """0.001 deg/s is 0.2 degrees of heading in three minutes of walking."""
+    values, _ = swaying(seed)
+    whole = stood(values[:800]).result()
+    for span in (slice(1, 800), slice(0, 799), slice(1, 799)):
+        for one, other in zip(whole, stood(values[span]).result(), strict=True):
+            change = np.degrees(np.abs(one.angular_rate - other.angular_rate).max())
+            assert change < 1e-3
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_foot_that_is_turned_while_standing_pulls_little(seed):
+    """Weight is shifted for 1.5 s: a foot turns by 1.1 degrees, up to 1.5 deg/s, and stays so."""
+    values = swaying(seed)[0][:1000].copy()
+    plain = stood(values).result()[0].angular_rate
+    pulse = np.radians(0.75) * (1.0 - np.cos(2.0 * np.pi * np.arange(150) / 150.0))
+    values[400:550, 5] += pulse
+    pulled = stood(values).result()[0].angular_rate
+    assert abs(pulled - plain)[2] < 0.4 * pulse.sum() / len(values)
+
+
+def test_a_lifted_foot_is_no_part_of_the_stand():
+    values = swaying(0)[0][:1000].copy()
+    plain = stood(values).result()[0].angular_rate
+    values[400:440, 3:6] += np.sin(2.0 * np.pi * np.arange(40) / 40.0)[:, None]
+    still = Standstill(Alignment(), GRAVITY, RATE)
+    seen = []
+    for row in values:
+        still.add(row, restart=False)
+        seen.append(still.complaint)
+    assert all(c and "left foot: angular rate scatter" in c for c in seen[410:440])
+    assert seen[-1] is None
+    assert np.degrees(np.abs(still.result()[0].angular_rate - plain)).max() < 0.04
+
+
+def test_a_bias_that_drifts_is_followed():
+    """After five minutes of standing the bias of the last half minute counts, not the mean."""
+    values = standing_samples(round(300.0 * RATE)).values
+    values[:, 5] += np.linspace(0.0, 0.01, len(values))
+    assert stood(values).result()[0].angular_rate[2] == pytest.approx(0.01, abs=0.0012)
 
 
 def test_the_longer_the_stand_the_better_the_bias():
@@ -107,9 +202,7 @@ def test_the_longer_the_stand_the_better_the_bias():
     for seconds in (3.0, 40.0):
         squares = []
         for seed in range(12):
-            still = Standstill(Alignment(still_fraction=1.0), GRAVITY, RATE)
-            for row in standing_samples(round(seconds * RATE), RATE, seed).values:
-                still.add(row)
+            still = stood(standing_samples(round(seconds * RATE), RATE, seed).values)
             squares.append(still.result()[0].angular_rate ** 2)
         errors.append(np.sqrt(np.mean(squares)))
     assert errors[1] < 0.5 * errors[0]

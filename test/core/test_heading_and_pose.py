@@ -65,7 +65,7 @@ def test_how_the_sensors_are_turned_on_the_shoes_does_not_matter():
     so here it is not to decide about windows and P0.)
     """
     same = {
-        "alignment.still_fraction": 1.0,
+        "alignment.still_rate_std": 1.0,
         "initial.gyro_bias": 0.01,
         "zupt.lever_back": 0.0,  # until the heading is known it lies along the sensor's own axis
     }

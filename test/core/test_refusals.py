@@ -13,7 +13,7 @@ from dualfoot_ros.core.update import Update
 from .harness import quick_engine, standing_samples, walk
 
 QUICK = TrackerConfig.from_mapping(
-    {"alignment": {"duration": 0.5, "window": 0.1, "still_fraction": 1.0}}
+    {"alignment": {"duration": 0.5, "window": 0.1, "still_rate_std": 1.0}}
 )
 BASE = 10**18
 STEP = 10_000_000

@@ -1,14 +1,12 @@
 """A tracker that has been aligned: it runs epochs and attends to what they report.
 
-What needs the future is done here, with the kernel's ring of snapshots: a stance or swing too
-short to be one is undone, and a constraint can be applied at the moment it is about.  In both
-cases the filter goes back, is corrected, and runs again over the few epochs since; constraints
-that were applied in between are applied again at their own epochs.
+What needs the future is done here, by going back (``roll_back``): a stance or swing too short to
+be one is undone, and a constraint can be applied at the moment it is about.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -21,12 +19,12 @@ from .heading import Headings, turn
 from .kernel import Engine
 from .kernel import layout as at
 from .past import Past
+from .roll_back import RollBack
 from .series import FloatArray, IntArray
 from .trajectory import FEET, Event, EventKind
 from .workspace import Workspace
 
 Found = list[Event]
-ACTIONS = 16  # constraints kept before those that no roll-back can reach are dropped
 
 
 class Session:
@@ -55,7 +53,7 @@ class Session:
         self._config, self._still = config, still
         self._origin = np.zeros(3)
         self._past = Past(self.space)
-        self._actions: list[tuple[int, Callable[[JointEstimate], Outcome]]] = []
+        self._roll_back = RollBack(self.space)
         self._dt, self._values = np.empty(1), np.empty((1, 12))
         self._row = np.zeros((1, at.OUT))
         self.use(engine)
@@ -71,6 +69,7 @@ class Session:
         """Go on with another form of the kernel."""
         self._engine = engine
         self._estimate = JointEstimate(self.space, engine)
+        self._roll_back.use(engine, self._estimate)
 
     def _level(self) -> None:
         forward = self.headings.forward
@@ -156,7 +155,7 @@ class Session:
         """Do what the newest epoch's notices ask for."""
         notices = int(self.space.n[at.N_NOTICE])
         bits = [notices & 15, notices >> at.NOTICE_SHIFT]
-        self._clean_phases(bits)
+        self._roll_back.clean_phases(bits)
         found: Found = []
         for foot in range(2):
             if bits[foot] & at.STANCE_CONFIRMED:
@@ -166,45 +165,6 @@ class Session:
         if notices & at.NOTICE_WATCH:
             found += self._constrain("both", self._method, self._method.on_epoch(self._past))
         return found
-
-    def _clean_phases(self, bits: list[int]) -> None:
-        """Undo the zero velocity of a stance, or the swing within one, that was none."""
-        space, now = self.space, self.space.epoch
-        firsts = []
-        for foot in range(2):
-            if bits[foot] & at.STANCE_FALSE:
-                first = space.foot(foot, "N_START")
-                still = False
-            elif bits[foot] & at.SWING_FALSE:
-                first = space.foot(foot, "N_LEAVE")
-                still = True
-            else:
-                continue
-            if first >= space.oldest:
-                self._engine.set_flags(space.n, foot, first, now, still)
-                firsts.append(first)
-        if firsts:
-            self._replay(min(firsts), [])
-
-    def _replay(self, first: int, fresh: Sequence[Request]) -> list[Outcome]:
-        """Go back to before epoch ``first`` and run up to the newest again.
-
-        Constraints already applied since are applied again, each at its own epoch; the ``fresh``
-        ones, none earlier than ``first - 1``, join them.  Returns what came of the fresh ones.
-        """
-        space, engine = self.space, self._engine
-        engine.restore(space.w, space.n, first)
-        outcomes = []
-        old = [(epoch, apply, False) for epoch, apply in self._actions if epoch >= first]
-        new = [(request.epoch, request.apply, True) for request in fresh]
-        for epoch, apply, is_fresh in sorted([*old, *new], key=lambda action: action[0]):
-            engine.rerun(space.w, space.n, first, epoch)
-            first = max(first, epoch + 1)
-            outcome = apply(self._estimate)
-            if is_fresh:
-                outcomes.append(outcome)
-        engine.rerun(space.w, space.n, first, space.epoch)
-        return outcomes
 
     def _phase(self, foot: int, last: int) -> StancePhase:
         space = self.space
@@ -244,22 +204,13 @@ class Session:
         return found
 
     def _constrain(self, foot: str, method: Method, requests: Sequence[Request]) -> Found:
-        """Apply what a method asked for: all at their moments, or all now."""
+        """Apply what a method asked for, and tell it and the caller what came of it."""
         if not requests:
             return []
-        space, now = self.space, self.space.epoch
-        if requests[0].roll_back:
-            requests = sorted(requests, key=lambda request: request.epoch)
-            outcomes = self._replay(requests[0].epoch + 1, requests)
-        else:
-            outcomes = [request.apply(self._estimate) for request in requests]
-        for request, outcome in zip(requests, outcomes, strict=True):
+        done = self._roll_back.apply(requests)
+        for _, outcome in done:
             method.note(outcome)
-            if outcome.accepted:
-                self._actions.append((request.epoch if request.roll_back else now, request.apply))
-        if len(self._actions) > ACTIONS:
-            self._actions = [a for a in self._actions if a[0] >= space.oldest]
-        return [self._event(foot, *pair) for pair in zip(requests, outcomes, strict=True)]
+        return [self._event(foot, *pair) for pair in done]
 
     def _event(self, foot: str, request: Request, outcome: Outcome) -> Event:
         return Event(
@@ -293,7 +244,7 @@ class Session:
             up_m = found[0].detail["shift"][2]
         for method in (*self._aids, self._method):
             method.moved(up_m)
-        self._actions.clear()
+        self._roll_back.forget()
         self.space.n[at.N_OLDEST] = self.space.epoch + 1
         return found
 
@@ -307,5 +258,5 @@ class Session:
             if space.foot(foot, "N_PHASE") in (at.STANCE, at.LEAVING)
         ]
         space.bridge(gap_s)
-        self._actions.clear()
+        self._roll_back.forget()
         return found

@@ -1,0 +1,90 @@
+"""Going back to the epoch that something was found out about, and running again from there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from .constraints.method import Request
+from .estimate import JointEstimate, Outcome
+from .kernel import Engine
+from .kernel import layout as at
+from .workspace import Workspace
+
+ACTIONS = 16  # constraints kept before those that no roll-back can reach are dropped
+
+
+class RollBack:
+    """Corrects the past of a workspace, and does there again what had been done since.
+
+    The kernel's ring of snapshots says how far back it can go.
+    """
+
+    def __init__(self, space: Workspace) -> None:
+        self._space = space
+        self._actions: list[tuple[int, Callable[[JointEstimate], Outcome]]] = []
+
+    def use(self, engine: Engine, estimate: JointEstimate) -> None:
+        """Go on with another form of the kernel."""
+        self._engine, self._estimate = engine, estimate
+
+    def forget(self) -> None:
+        """Forget what was applied: it cannot be applied again."""
+        self._actions.clear()
+
+    def clean_phases(self, bits: Sequence[int]) -> None:
+        """Undo the zero velocity of a stance, or the swing within one, that was none.
+
+        ``bits`` (2,) are the notices of each foot.
+        """
+        space, now = self._space, self._space.epoch
+        firsts = []
+        for foot in range(2):
+            if bits[foot] & at.STANCE_FALSE:
+                first = space.foot(foot, "N_START")
+                still = False
+            elif bits[foot] & at.SWING_FALSE:
+                first = space.foot(foot, "N_LEAVE")
+                still = True
+            else:
+                continue
+            if first >= space.oldest:
+                self._engine.set_flags(space.n, foot, first, now, still)
+                firsts.append(first)
+        if firsts:
+            self._replay(min(firsts), [])
+
+    def apply(self, requests: Sequence[Request]) -> list[tuple[Request, Outcome]]:
+        """Apply all at their moments, or all now, and return what came of each, by epoch."""
+        now = self._space.epoch
+        if requests[0].roll_back:
+            requests = sorted(requests, key=lambda request: request.epoch)
+            outcomes = self._replay(requests[0].epoch + 1, requests)
+        else:
+            outcomes = [request.apply(self._estimate) for request in requests]
+        pairs = list(zip(requests, outcomes, strict=True))
+        for request, outcome in pairs:
+            if outcome.accepted:
+                self._actions.append((request.epoch if request.roll_back else now, request.apply))
+        if len(self._actions) > ACTIONS:
+            self._actions = [a for a in self._actions if a[0] >= self._space.oldest]
+        return pairs
+
+    def _replay(self, first: int, fresh: Sequence[Request]) -> list[Outcome]:
+        """Go back to before epoch ``first`` and run up to the newest again.
+
+        Constraints already applied since are applied again, each at its own epoch; the ``fresh``
+        ones, none earlier than ``first - 1``, join them.  Returns what came of the fresh ones.
+        """
+        space, engine = self._space, self._engine
+        engine.restore(space.w, space.n, first)
+        outcomes = []
+        old = [(epoch, apply, False) for epoch, apply in self._actions if epoch >= first]
+        new = [(request.epoch, request.apply, True) for request in fresh]
+        for epoch, apply, is_fresh in sorted([*old, *new], key=lambda action: action[0]):
+            engine.rerun(space.w, space.n, first, epoch)
+            first = max(first, epoch + 1)
+            outcome = apply(self._estimate)
+            if is_fresh:
+                outcomes.append(outcome)
+        engine.rerun(space.w, space.n, first, space.epoch)
+        return outcomes

@@ -27,7 +27,7 @@ PROGRAM = Program(
     "  ros2 run dualfoot_ros time_sync\n"
     "  ros2 run dualfoot_ros time_sync --ros-args -p aligner.rate:=200.0\n"
     "  ros2 run dualfoot_ros time_sync --ros-args -p stamping.left:=device "
-    "-p stamping.right:=device -p aligner.max_delay:=0.5",
+    "-p stamping.right:=device",
     tuple(node_specs("time_sync")),
 )
 

@@ -32,8 +32,9 @@ class Sync(Parameters):
         maximum=1.0,
     )
     max_delay: float = parameter(
-        0.25,
-        "longest time a pair waits for the other foot (not shorter than max_gap)",
+        1.0,
+        "longest time a pair waits for a foot that is late, with what comes later dropped; pairs "
+        "of feet that are in time never wait (not shorter than max_gap)",
         unit="s",
         minimum=0.001,
         maximum=10.0,

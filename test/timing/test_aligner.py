@@ -102,8 +102,39 @@ def test_a_foot_late_by_less_than_the_delay_loses_no_pair():
     assert aligner.counters["late"] == aligner.counters["in_gap"] == 0
 
 
+@settings(deadline=None)
+@given(
+    st.lists(st.integers(2 * MS, 30 * MS), min_size=5, max_size=60),
+    st.lists(st.integers(2 * MS, 30 * MS), min_size=5, max_size=60),
+    rates,
+    st.integers(0, 60 * MS),
+    st.floats(0.25, 10.0),
+)
+def test_feet_that_are_in_time_never_wait_however_long_a_late_one_would_be_waited_for(
+    a, b, rate, late, max_delay
+):
+    left, right = noisy(np.cumsum(a), 0), noisy(np.cumsum(b), 1)
+    samples = list(arrivals(left, right, {"right": late}))
+    short, long = (Aligner(Sync(rate=rate, max_delay=d)) for d in (0.25, max_delay))
+    for sample in samples:
+        found = [[p.stamp_ns for p in each.push(*sample)] for each in (short, long)]
+        assert found[0] == found[1]
+
+
+def test_by_default_a_foot_that_is_held_up_for_most_of_a_second_loses_nothing():
+    aligner = Aligner()
+    for k in range(10):
+        aligner.push("left", k * 10 * MS, SAMPLE)
+        aligner.push("right", k * 10 * MS, SAMPLE)
+    for k in range(10, 100):
+        assert aligner.push("left", k * 10 * MS, SAMPLE) == []
+    for k in range(10, 100):
+        assert len(aligner.push("right", k * 10 * MS, SAMPLE)) == 1
+    assert aligner.counters["late"] == 0 and aligner.counters["pairs"] == 100
+
+
 def test_the_memory_of_an_aligner_does_not_grow_while_one_foot_is_silent():
-    aligner = Aligner(Sync())
+    aligner = Aligner(Sync(max_delay=0.25))
     for k in range(5000):
         aligner.push("right", k * 5 * MS, SAMPLE)
     assert len(aligner._tracks["right"].samples) < 60

@@ -29,7 +29,8 @@ class Source:
     """Samples of one device, handed to ``on_samples`` from a thread of the source's own.
 
     ``with Source(uri, on_samples):`` starts it and stops it.  ``on_state`` is told when the link
-    comes and goes, with a reason in words.
+    comes and goes, with a reason in words.  ``before_first`` is called, with the event that says
+    stop, before the first samples are handed on: a file may wait there for its listeners.
     """
 
     def __init__(
@@ -41,6 +42,7 @@ class Source:
         conditioning: Conditioning | None = None,
         checks: Checks | None = None,
         clock: Callable[[], int] = time.time_ns,
+        before_first: Callable[[threading.Event], None] | None = None,
     ) -> None:
         """Put the source together; nothing is opened before :meth:`start`.
 
@@ -60,6 +62,7 @@ class Source:
         self._conditioner = Conditioner(conditioning)
         self._on_samples = on_samples
         self._on_state = on_state or (lambda state, reason: None)
+        self._before_first = before_first
         self._pacer = _pacer(parsed, self.reader.stopping, clock)
 
     def start(self) -> None:
@@ -101,9 +104,18 @@ class Source:
     def _take(self, data: bytes, arrival_ns: int) -> None:
         decoded = map(self._conditioner.apply, self.decoder.feed(data, arrival_ns))
         samples = [sample for sample in decoded if self.check.accept(sample)]
-        if samples and self._pacer is not None:
+        if samples:
+            self._deliver(samples)
+
+    def _deliver(self, samples: list[Sample]) -> None:
+        if self._before_first is not None:
+            self._before_first(self.reader.stopping)
+            self._before_first = None
+            if self.reader.stopping.is_set():
+                return
+        if self._pacer is not None:
             self._pacer.deliver(samples, self._on_samples)
-        elif samples:
+        else:
             self._on_samples(samples)
 
 

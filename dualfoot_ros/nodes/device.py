@@ -22,9 +22,9 @@ Take = Callable[[int | None, int, FloatArray], None]
 class Device:
     """Hands on ``(device_ns or None, arrival_ns, values (6,))`` from a thread of its own.
 
-    ``begin`` is called, with the event that says stop, when a link has come and before it is
-    read: a file waits there for its listeners.  ``ended`` is called once: without a reason when a
-    file is over, with one when reading has failed for good.  Both are called from that thread.
+    ``begin`` is called, with the event that says stop, before the first sample: a file waits there
+    for its listeners.  ``ended`` is called once: without a reason when a file is over, with one
+    when reading has failed for good.  Both are called from that thread.
     """
 
     def __init__(
@@ -57,6 +57,7 @@ class Device:
             on_state=self._changed,
             checks=checks,
             clock=lambda: int(node.get_clock().now().nanoseconds),
+            before_first=self._wait_to_begin,
         )
 
     def start(self) -> None:
@@ -94,7 +95,6 @@ class Device:
         log, uri = self._node.get_logger(), self.source.uri
         if state is State.CONNECTED:
             log.info(f"source '{uri}' is connected")
-            self._wait_to_begin()
         elif state is State.WAITING:
             log.warning(f"source '{uri}' is not there and is tried again: {reason}")
         elif state is State.FAILED and self._node.context.ok():
@@ -102,10 +102,10 @@ class Device:
         elif state is State.ENDED:
             self._ended(self._emptiness())
 
-    def _wait_to_begin(self) -> None:
+    def _wait_to_begin(self, stop: threading.Event) -> None:
         if self._begin is not None:
             self._last_s = math.inf  # waiting is no silence
-            self._begin(self.source.reader.stopping)
+            self._begin(stop)
             self._last_s = time.monotonic()
 
     def _emptiness(self) -> SourceError | None:

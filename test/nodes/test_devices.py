@@ -197,7 +197,7 @@ def test_a_capture_that_waits_can_be_stopped(bench, tmp_path):
     path.write_bytes(frames.stream("mcu", 30))
     values = {"play.wait": 3600.0, "play.delay": 3600.0}
     node = adapter_of(bench, f"file://{path}?format=mcu&speed=0", **values)
-    bench.until(lambda: node.device.source.state is State.CONNECTED, "the file")
+    bench.until(lambda: node.check.counters["seen"], "the first bytes")
     node.device.stop()
     assert node.counters["relayed"] == 0 and node.device.source.state is State.STOPPED
 
@@ -214,10 +214,10 @@ def test_a_live_device_waits_for_nobody(bench, tmp_path):
 
 
 @pytest.mark.parametrize(("content", "size"), [(b"", 0), (b"no frames at all", 16)])
-def test_a_capture_without_any_sample_is_an_error(bench, tmp_path, content, size):
+def test_a_capture_without_any_sample_is_an_error_at_once(bench, tmp_path, content, size):
     path = tmp_path / "capture.bin"
     path.write_bytes(content)
-    node = adapter_of(bench, f"file://{path}?format=mcu", **{"play.wait": 0.0})
+    node = adapter_of(bench, f"file://{path}?format=mcu", **{"play.wait": 3600.0})
     bench.until(node.done.done, "the end of the file")
     with pytest.raises(
         SourceError, match=rf"capture\.bin.* no sample in {size} bytes: check format"

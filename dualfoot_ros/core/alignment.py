@@ -27,11 +27,13 @@ class FootStandstill:
     specific_force : (3,) m/s^2, mean
     angular_rate : (3,) rad/s, mean: the gyro bias
     rate_scatter : rad/s, standard deviation of that mean, from the scatter of the windows' means
+    force_scatter : m/s^2, of the windows' means, on each of two axes: how far they tilt
     """
 
     specific_force: FloatArray
     angular_rate: FloatArray
     rate_scatter: float
+    force_scatter: float
 
     def levelling(self) -> FloatArray:
         """Return R_nb (3, 3) with roll and pitch from gravity and the body x axis heading zero."""
@@ -86,7 +88,7 @@ class Average:
         """Start empty; ``floor`` rad/s, ``keep`` is what is left of a weight one sample later."""
         self._floor, self._keep = floor, keep
         self._weight = self._squares = 0.0
-        self._mean, self._spread = np.zeros(6), np.zeros(3)
+        self._mean, self._spread = np.zeros(6), np.zeros(6)
 
     def add(self, window: Window, at: int) -> None:
         """Take a window; the values of the foot start at index ``at``."""
@@ -96,13 +98,15 @@ class Average:
         self._squares = self._keep**2 * self._squares + weight**2
         step = mean - self._mean
         self._mean = self._mean + (weight / self._weight) * step
-        self._spread = self._keep * self._spread + weight * (step * (mean - self._mean))[3:]
+        self._spread = self._keep * self._spread + weight * step * (mean - self._mean)
 
     def result(self, size: int) -> FootStandstill:
         """Return the mean; windows of ``size`` samples overlap, one in ``size`` is independent."""
         windows = self._weight**2 / self._squares / size
-        variance = float(self._spread.max()) / self._weight / max(1.0, windows - 1.0)
-        return FootStandstill(self._mean[:3], self._mean[3:], math.sqrt(variance))
+        variance = self._spread / self._weight
+        rate = math.sqrt(float(variance[3:].max()) / max(1.0, windows - 1.0))
+        tilts = 0.5 * float(variance[:3].sum())  # two axes: along gravity next to nothing
+        return FootStandstill(self._mean[:3], self._mean[3:], rate, math.sqrt(tilts))
 
 
 class Standstill:

@@ -13,6 +13,7 @@ from .series import FloatArray
 
 GAP_SPEED = 1.5  # m/s, how a person may have moved while no data came
 GAP_TURN = 0.3  # rad/s
+LEVEL_NOISE = 1e-3  # m/s^2, the least by which gravity in the levelled frame is off
 
 
 class Workspace:
@@ -107,7 +108,7 @@ class Workspace:
             rate = constants + at.C_STILL_RATE
             w[rate : rate + 3] = still.angular_rate
             w[constants + at.C_STILL_NORM] = norm
-            self._initial_covariance(config, foot, still.rate_scatter)
+            self._initial_covariance(config, foot, still, rotation)
         self.n[at.N_OLDEST] = self.n[at.N_EPOCH] + 1
 
     def aim(self, foot: int, forward: FloatArray) -> None:
@@ -118,13 +119,16 @@ class Workspace:
         lever = at.C_FOOT + foot * at.C_STRIDE + at.C_LEVER
         self.w[lever : lever + 3] = -self._zupt.lever_arm * up - self._zupt.lever_back * ahead
 
-    def _initial_covariance(self, config: TrackerConfig, foot: int, scatter: float) -> None:
+    def _initial_covariance(
+        self, config: TrackerConfig, foot: int, still: FootStandstill, rotation: FloatArray
+    ) -> None:
         p0 = config.initial
         stds = [p0.position] * 3 + [p0.velocity] * 3 + [p0.tilt, p0.tilt, p0.yaw]
-        stds += [max(p0.gyro_bias, scatter)] * 3 + [p0.accelerometer_bias] * 3
+        stds += [max(p0.gyro_bias, still.rate_scatter)] * 3 + [p0.accelerometer_bias] * 3
         block = at.PLL if foot == 0 else at.PRR
-        for i, std in enumerate(stds):
-            self.w[block + (at.ROW + 1) * i] = std**2
+        rows = self.w[block : block + at.BLOCK].reshape(15, at.ROW)[:, :15]
+        np.fill_diagonal(rows, np.square(stds))
+        _know_level(rows, rotation, config.gravity, max(LEVEL_NOISE, still.force_scatter))
 
     def bridge(self, gap_s: float) -> None:
         """Get over ``gap_s`` s without data: unknown velocity, a position that may have moved."""
@@ -154,6 +158,25 @@ class Workspace:
     def covariance(self) -> FloatArray:
         """Return the full covariance (30, 30): left foot's error state, then the right foot's."""
         return joint_covariance(self.w[at.PLL : at.STATE])
+
+
+def _know_level(rows: FloatArray, rotation: FloatArray, gravity: float, std: float) -> None:
+    """Put into P0 ``rows`` (15, 15) that a levelled foot at rest feels gravity only, to ``std``.
+
+    Tilt and accelerometer bias are off by what cancels: the Kalman update of P0 by the error of
+    the acceleration, (-g phi_y + b_x, g phi_x + b_y, b_z) with the bias b in navigation axes.
+    """
+    att, bias = slice(at.E_ATT, at.E_ATT + 3), slice(at.E_BA, at.E_BA + 3)
+    tilt, b = float(rows[at.E_ATT, at.E_ATT]), float(rows[at.E_BA, at.E_BA])
+    total = gravity**2 * tilt + b + std**2
+    for axis in (at.E_ATT, at.E_ATT + 1):
+        rows[axis, axis] = tilt * (b + std**2) / total
+    level, up = b * (total - b) / total, b * std**2 / (b + std**2)
+    block = rotation.T @ np.diag([level, level, up]) @ rotation
+    rows[bias, bias] = 0.5 * (block + block.T)
+    common = gravity * tilt * b / total
+    rows[att, bias] = np.array([-common * rotation[1], common * rotation[0], np.zeros(3)])
+    rows[bias, att] = rows[att, bias].T
 
 
 def joint_covariance(blocks: FloatArray) -> FloatArray:

@@ -17,7 +17,7 @@ from dualfoot_ros.core import (
 from dualfoot_ros.core.alignment import Standstill
 from dualfoot_ros.core.config import Alignment
 
-from .harness import GRAVITY, Pairs, open_session, simulated, standing_samples, walk
+from .harness import GRAVITY, Pairs, cross_matrix, open_session, simulated, standing_samples, walk
 
 RATE = 100.0
 LEVEL = np.array([0.0, 0.0, GRAVITY])
@@ -72,6 +72,28 @@ def test_after_levelling_a_foot_at_rest_feels_no_acceleration():
     rotation = session._estimate.rotation(0)
     bias = session.space.w[18:21]
     assert np.allclose(rotation @ (still.specific_force - bias), [0.0, 0.0, GRAVITY], atol=1e-9)
+
+
+@pytest.mark.parametrize(("roll", "pitch"), TILTS)
+def test_tilt_and_accelerometer_bias_are_known_to_cancel_from_the_start(roll, pitch):
+    """P0 is that of unrelated errors after a measurement that the levelled foot feels only g."""
+    config = TrackerConfig()
+    session, _ = open_session(config, tilted(roll, pitch))
+    p0, still = config.initial, session._still.result()
+    for foot in range(2):
+        rotation = session._estimate.rotation(foot)
+        h = np.hstack(
+            [np.zeros((3, 6)), cross_matrix([0.0, 0.0, GRAVITY]), np.zeros((3, 3)), rotation]
+        )
+        stds = [p0.position] * 3 + [p0.velocity] * 3 + [p0.tilt, p0.tilt, p0.yaw]
+        stds += [max(p0.gyro_bias, still[foot].rate_scatter)] * 3 + [p0.accelerometer_bias] * 3
+        p = np.diag(np.square(stds))
+        s = h @ p @ h.T + max(1e-3, still[foot].force_scatter) ** 2 * np.eye(3)
+        expected = p - p @ h.T @ np.linalg.solve(s, h @ p)
+        found = session.space.covariance()[15 * foot : 15 * foot + 15, 15 * foot : 15 * foot + 15]
+        assert np.allclose(found, expected, rtol=1e-9, atol=1e-15)
+        assert np.array_equal(found, found.T)
+        assert np.linalg.eigvalsh(found).min() > 0.0
 
 
 def test_motion_during_the_alignment_starts_it_again_and_is_counted():

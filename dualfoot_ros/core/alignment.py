@@ -1,7 +1,7 @@
 """Levelling and gyro bias from a standstill of both feet: checked, refined until the first step.
 
 A person who stands is not still: the standing rate of a foot moves by 0.1-0.3 deg/s.  So a
-window slides over the stand sample by sample, is checked, and counts the more the stiller it is.
+window slides over the stand, is checked at every step, and counts the more the stiller it is.
 Nothing is chosen, so one sample more or less changes the bias by next to nothing.
 """
 
@@ -16,6 +16,7 @@ from .config import Alignment
 from .series import FloatArray
 
 MEMORY_S = 30.0  # what is older than that fades: biases drift
+SLIDES = 25  # steps in which a window moves on by its length
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,7 @@ class Average:
     """
 
     def __init__(self, floor: float, keep: float) -> None:
-        """Start empty; ``floor`` rad/s, ``keep`` is what is left of a weight one sample later."""
+        """Start empty; ``floor`` rad/s, ``keep`` is what is left of a weight one step later."""
         self._floor, self._keep = floor, keep
         self._weight = self._squares = 0.0
         self._mean, self._spread = np.zeros(6), np.zeros(6)
@@ -100,9 +101,9 @@ class Average:
         self._mean = self._mean + (weight / self._weight) * step
         self._spread = self._keep * self._spread + weight * step * (mean - self._mean)
 
-    def result(self, size: int) -> FootStandstill:
-        """Return the mean; windows of ``size`` samples overlap, one in ``size`` is independent."""
-        windows = self._weight**2 / self._squares / size
+    def result(self, slides: int) -> FootStandstill:
+        """Return the mean; windows overlap, so only one in ``slides`` is independent."""
+        windows = self._weight**2 / self._squares / slides
         variance = self._spread / self._weight
         rate = math.sqrt(float(variance[3:].max()) / max(1.0, windows - 1.0))
         tilts = 0.5 * float(variance[:3].sum())  # two axes: along gravity next to nothing
@@ -117,7 +118,9 @@ class Standstill:
         self._config, self._gravity = config, gravity
         self._size = max(5, round(config.window * rate_hz))
         self._needed = max(1, math.ceil(config.duration * rate_hz / self._size))
-        self._keep = math.exp(-1.0 / (MEMORY_S * rate_hz))
+        self._step = max(1, self._size // SLIDES)
+        self._slides = self._size // self._step
+        self._keep = math.exp(-self._step / (MEMORY_S * rate_hz))
         self._samples = np.empty((self._size, 12))  # the newest, in a ring
         self._count = 0
         self.complaint: str | None = None
@@ -132,7 +135,7 @@ class Standstill:
     @property
     def ready(self) -> bool:
         """Whether enough standstill has been collected."""
-        return self._still > (self._needed - 1) * self._size
+        return self._still > (self._needed - 1) * self._slides
 
     def add(self, values: FloatArray, *, restart: bool = True) -> bool:
         """Take one pair; return True when one more window's length of standstill is complete.
@@ -141,13 +144,13 @@ class Standstill:
         """
         self._samples[self._count % self._size] = values
         self._count += 1
-        if self._count < self._size:
+        if self._count < self._size or self._count % self._step:
             return False
         window = Window(self._samples.mean(axis=0), self._samples.std(axis=0))
         self.complaint = window.complaint(self._config, self._gravity)
         if self.complaint is None:
             self._collect(window)
-            return self._still % self._size == 1
+            return self._still % self._slides == 1
         if restart and self._still:
             self.restarts += 1
             self._clear()
@@ -160,5 +163,5 @@ class Standstill:
 
     def result(self) -> tuple[FootStandstill, FootStandstill]:
         """Return what the standstill tells about the left and the right foot."""
-        left, right = (average.result(self._size) for average in self._feet)
+        left, right = (average.result(self._slides) for average in self._feet)
         return left, right

@@ -52,16 +52,24 @@ class Window:
     mean: FloatArray
     std: FloatArray
 
+    @classmethod
+    def of(cls, samples: FloatArray) -> Window:
+        """Return the window of ``samples`` (N, 12)."""
+        mean = samples.sum(axis=0) / len(samples)
+        off = samples - mean
+        return cls(mean, np.sqrt((off * off).sum(axis=0) / len(samples)))
+
     def complaint(self, config: Alignment, gravity: float) -> str | None:
         """Return why this window is no standstill, or None."""
+        mean, std = self.mean.tolist(), self.std.tolist()
         for foot, name in enumerate(("left", "right")):
             force, rate = slice(6 * foot, 6 * foot + 3), slice(6 * foot + 3, 6 * foot + 6)
-            norm = math.sqrt(float(self.mean[force] @ self.mean[force]))
+            excess = abs(math.hypot(*mean[force]) - gravity)
             checks = (
-                ("angular rate scatter", self.std[rate].max(), config.max_rate_std, "rad/s"),
-                ("specific force scatter", self.std[force].max(), config.max_force_std, "m/s^2"),
-                ("mean angular rate", np.abs(self.mean[rate]).max(), config.max_rate, "rad/s"),
-                ("gravity error", abs(norm - gravity), config.max_gravity_error, "m/s^2"),
+                ("angular rate scatter", max(std[rate]), config.max_rate_std, "rad/s"),
+                ("specific force scatter", max(std[force]), config.max_force_std, "m/s^2"),
+                ("mean angular rate", max(map(abs, mean[rate])), config.max_rate, "rad/s"),
+                ("gravity error", excess, config.max_gravity_error, "m/s^2"),
             )
             for what, value, limit, unit in checks:
                 if value > limit:
@@ -146,7 +154,7 @@ class Standstill:
         self._count += 1
         if self._count < self._size or self._count % self._step:
             return False
-        window = Window(self._samples.mean(axis=0), self._samples.std(axis=0))
+        window = Window.of(self._samples)
         self.complaint = window.complaint(self._config, self._gravity)
         if self.complaint is None:
             self._collect(window)

@@ -7,7 +7,7 @@ import json
 from typing import TYPE_CHECKING
 
 from .progress import progress
-from .simulate_options import barometer, configurations, show_choices
+from .simulate_options import barometer, configurations, magnetometer, show_choices
 
 if TYPE_CHECKING:
     from ..core import PoseSeries
@@ -24,6 +24,7 @@ examples:
   dualfoot simulate -o clocks --set right_clock.offset=12.5 --set right_clock.drift=40
   dualfoot simulate -o board --route L --one-shoe 0.014     two sensors on the right shoe
   dualfoot simulate -o climb --route stairs --barometer     air pressure too
+  dualfoot simulate -o lap --route track --magnetometer     magnetic field too
   dualfoot simulate --list                                  routes, mountings, grades, parameters
 """
 
@@ -81,6 +82,9 @@ def _add_sensor(parser: argparse.ArgumentParser) -> None:
         metavar="WORN",
         help="air pressure too, on the feet (default) or on the body",
     )
+    group.add_argument(
+        "--magnetometer", action="store_true", help="the magnetic field at both feet too"
+    )
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
@@ -124,7 +128,8 @@ def _simulate(args: argparse.Namespace) -> int:
     walked = walk(walk_config, args.seed)
     if args.one_shoe is not None:
         walked = rigid_pair(walked, args.one_shoe)
-    simulation = simulate(walked, sensor, clocks, args.seed, barometer(args))
+    aids = barometer(args), magnetometer(args)
+    simulation = simulate(walked, sensor, clocks, args.seed, *aids)
     recording = _recording(simulation, args)
     with progress(f"writing {args.output}") as update:
         write_bag(
@@ -187,6 +192,8 @@ def _report(args: argparse.Namespace, simulation: Simulation) -> None:
     )
     for worn, count in facts.get("pressure_samples", {}).items():
         print(f"{count} samples of air pressure, worn on {worn}")
+    if "magnetic_field" in facts:
+        print("every sample has the magnetic field")
     if "lever_arm_m" in facts:
         arm = ", ".join(f"{v:g}" for v in facts["lever_arm_m"])
         print(f"both sensors on the right shoe: --set rigid_pair.lever_arm='[{arm}]'")

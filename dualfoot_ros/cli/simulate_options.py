@@ -5,14 +5,20 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .settings import setting
 
 if TYPE_CHECKING:
-    from ..simulation import BarometerConfig, ClockConfig, SensorConfig, WalkConfig
+    from ..simulation import (
+        BarometerConfig,
+        ClockConfig,
+        MagnetometerConfig,
+        SensorConfig,
+        WalkConfig,
+    )
 
-GROUPS = ("gait", "sensor", "left_clock", "right_clock", "barometer")
+GROUPS = ("gait", "sensor", "left_clock", "right_clock", "barometer", "magnetometer")
 PLAIN = ("route", "laps", "speed", "rate", "mounting", "standing", "stops", "stop_duration")
 
 
@@ -58,17 +64,38 @@ def barometer(args: argparse.Namespace) -> BarometerConfig | None:
     ConfigError
         Naming the parameter, its value and what is allowed.
     """
-    from ..core.config import nested
-    from ..core.errors import ConfigError
     from ..simulation import BarometerConfig
 
-    given = nested(dict(setting(text) for text in args.set)).get("barometer", {})
+    given = _optional(args, "barometer", args.barometer is not None)
     if args.barometer is None:
-        if given:
-            name = next(iter(given))
-            raise ConfigError(f"'barometer.{name}' is set without a barometer; add --barometer")
         return None
     return BarometerConfig.from_mapping({"worn": args.barometer, **given}, "barometer.")
+
+
+def magnetometer(args: argparse.Namespace) -> MagnetometerConfig | None:
+    """Return the magnetometers of ``--magnetometer`` and the ``--set`` parameters, or None.
+
+    Raises
+    ------
+    ConfigError
+        Naming the parameter, its value and what is allowed.
+    """
+    from ..simulation import MagnetometerConfig
+
+    given = _optional(args, "magnetometer", args.magnetometer)
+    return MagnetometerConfig.from_mapping(given, "magnetometer.") if args.magnetometer else None
+
+
+def _optional(args: argparse.Namespace, name: str, there: bool) -> Mapping[str, Any]:
+    """Return what ``--set`` gives to a sensor that is only there if asked for."""
+    from ..core.config import nested
+    from ..core.errors import ConfigError
+
+    given: Mapping[str, Any] = nested(dict(setting(text) for text in args.set)).get(name, {})
+    if given and not there:
+        first = next(iter(given))
+        raise ConfigError(f"'{name}.{first}' is set without a {name}; add --{name}")
+    return given
 
 
 def show_choices(as_json: bool) -> int:
@@ -82,6 +109,7 @@ def show_choices(as_json: bool) -> int:
         *known.ClockConfig.specs("left_clock."),
         *known.ClockConfig.specs("right_clock."),
         *known.BarometerConfig.specs("barometer."),
+        *known.MagnetometerConfig.specs("magnetometer."),
     ]
     routes = {name: kind.description for name, kind in known.ROUTES.items()}
     if as_json:

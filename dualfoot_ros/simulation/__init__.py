@@ -4,6 +4,7 @@ from .barometer import BarometerConfig
 from .clocks import ClockConfig
 from .config import MOUNTS, Gait, WalkConfig
 from .errors import SimulationError
+from .magnetometer import MagnetometerConfig
 from .routes import ROUTES, Route, route
 from .sensors import GRADES, SensorConfig, grade
 from .summary import summary
@@ -16,6 +17,7 @@ __all__ = [
     "BarometerConfig",
     "ClockConfig",
     "Gait",
+    "MagnetometerConfig",
     "Route",
     "SensorConfig",
     "Simulation",

@@ -23,6 +23,8 @@ def summary(simulation: Simulation) -> dict[str, Any]:
     }
     if simulation.pressure:
         facts["pressure_samples"] = {w: len(each) for w, each in simulation.pressure.items()}
+    if simulation.left.magnetic_field is not None:
+        facts["magnetic_field"] = True
     if facts["passes"]:
         facts["min_distance_mean_m"] = float(passes.distance.mean())
         facts["min_distance_std_m"] = float(passes.distance.std())

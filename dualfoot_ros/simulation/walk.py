@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from ..core.series import FloatArray, ImuSeries, IntArray, PoseSeries, PressureSeries
+from ..core.trajectory import FEET
 from .barometer import BarometerConfig, barometers
 from .clocks import ClockConfig, Sampling, sample_times
 from .config import WalkConfig
 from .errors import SimulationError
 from .footprints import Footprints, plan
+from .magnetometer import MagnetometerConfig, Surroundings, sense_field
 from .motion import ShoeMotion, Walker
 from .passing import NO_PASSES, Passes, pass_plan, passes, tune
 from .routes import Route, route
@@ -146,12 +150,13 @@ def simulate(
     clock: ClockConfig | tuple[ClockConfig, ClockConfig] | None = None,
     seed: int = 0,
     barometer: BarometerConfig | None = None,
+    magnetometer: MagnetometerConfig | None = None,
 ) -> Simulation:
     """Simulate a walk (or sense a given one) and return recordings and truth.
 
-    ``clock`` is one for both devices or one each.  There is no pressure without ``barometer``.
-    Walk, sensors, clocks and barometers draw from streams of their own, so changing one does not
-    change the others.
+    ``clock`` is one for both devices or one each.  There is no pressure without ``barometer`` and
+    no magnetic field without ``magnetometer``.  Walk, sensors, clocks, barometers, surroundings,
+    and magnetometers draw from streams of their own: changing one does not change the others.
 
     Raises
     ------
@@ -166,7 +171,11 @@ def simulate(
     recorded = [
         _record(walked, index, sensor, errors[index], clocks[index], rngs) for index in range(2)
     ]
-    (left, left_truth, left_arrival), (right, right_truth, right_arrival) = recorded
+    if magnetometer is not None:
+        recorded = _with_fields(recorded, magnetometer, rngs)
+    (left, left_truth, left_arrival), (right, right_truth, right_arrival) = (
+        (each.series[each.kept], each.truth, each.arrival_ns[each.kept]) for each in recorded
+    )
     pressure: dict[str, PressureSeries] = {}
     if barometer is not None:
         streams = rngs["left barometer"], rngs["right barometer"]
@@ -188,6 +197,15 @@ def simulate(
     )
 
 
+class _Recorded(NamedTuple):
+    """What one device measured; ``kept`` (N,) of it was not lost."""
+
+    series: ImuSeries
+    truth: PoseSeries
+    arrival_ns: IntArray
+    kept: NDArray[np.bool_]
+
+
 def nanoseconds(time_s: FloatArray) -> IntArray:
     """Return true time in ns for seconds since the start of the walk."""
     return START_NS + np.round(np.asarray(time_s) * 1e9).astype(np.int64)
@@ -200,8 +218,8 @@ def _record(
     errors: SensorErrors,
     clock: ClockConfig,
     rngs: dict[str, np.random.Generator],
-) -> tuple[ImuSeries, PoseSeries, IntArray]:
-    """Return what one device recorded, the truth, and when its samples arrived."""
+) -> _Recorded:
+    """Return what one device measured, the truth, and when its samples arrived."""
     foot = ("left", "right")[index]
     rate = walked.config.rate
     times: Sampling = sample_times(clock, rate, walked.duration_s, START_NS, rngs[f"{foot} clock"])
@@ -210,7 +228,21 @@ def _record(
     force, turn = measure(sensor, errors, ends, force, turn, rngs[f"{foot} noise"])
     truth = walked.truth(index, ends, times.true_ns(START_NS))
     series = ImuSeries(times.stamp_ns, force, turn)
-    return series[times.kept], truth, times.arrival_ns[times.kept]
+    return _Recorded(series, truth, times.arrival_ns, times.kept)
+
+
+def _with_fields(
+    recorded: Sequence[_Recorded],
+    config: MagnetometerConfig,
+    rngs: dict[str, np.random.Generator],
+) -> list[_Recorded]:
+    """Return the recordings of both feet with the magnetic field."""
+    surroundings = Surroundings(config, rngs["surroundings"])
+    found = []
+    for foot, each in zip(FEET, recorded, strict=True):
+        field = sense_field(config, surroundings, each.truth, rngs[f"{foot} magnetometer"])
+        found.append(each._replace(series=replace(each.series, magnetic_field=field)))
+    return found
 
 
 def _generators(seed: int) -> dict[str, np.random.Generator]:
@@ -219,6 +251,7 @@ def _generators(seed: int) -> dict[str, np.random.Generator]:
         "plan", "pass", "left shoe", "right shoe", "left errors", "right errors",
         "left noise", "right noise", "left clock", "right clock",
         "left barometer", "right barometer",
+        "surroundings", "left magnetometer", "right magnetometer",
     )  # fmt: skip
     children = np.random.SeedSequence(seed).spawn(len(names))
     return {

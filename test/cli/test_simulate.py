@@ -74,6 +74,7 @@ def test_the_list_names_every_route_and_parameter(capsys):
         "sensor.g_sensitivity",
         "left_clock.drift",
         "barometer.noise",
+        "magnetometer.hard_iron",
     ):
         assert name in text
     assert main(["simulate", "--list", "--json"]) == 0
@@ -116,6 +117,17 @@ def test_air_pressure_is_written_where_a_barometer_is_worn(tmp_path, option, wor
         assert np.diff(series.stamp_ns).tolist() == [100_000_000] * (len(series) - 1)
 
 
+def test_the_magnetic_field_is_written_where_it_is_asked_for(tmp_path, capsys):
+    path, bare = str(tmp_path / "walk"), str(tmp_path / "bare")
+    given = ["--magnetometer", "--set", "magnetometer.field=50", "--set", "magnetometer.noise=0"]
+    assert main(["simulate", "-o", path, *SHORT, *given]) == 0
+    assert "every sample has the magnetic field" in capsys.readouterr().out
+    field = read_bag(path).right.magnetic_field
+    assert np.linalg.norm(field, axis=1) == pytest.approx(50e-6, rel=0.1)
+    assert main(["simulate", "-o", bare, *SHORT]) == 0
+    assert read_bag(bare).right.magnetic_field is None
+
+
 def test_two_sensors_on_one_shoe_keep_their_distance(tmp_path):
     path = str(tmp_path / "board")
     assert main(["simulate", "-o", path, *SHORT, "--one-shoe", "0.05"]) == 0
@@ -149,6 +161,8 @@ def test_the_lever_arm_of_two_sensors_on_one_shoe_is_told_in_the_axes_of_the_fir
         (["--one-shoe", "2"], ("separation is 2 m", "0.3 m")),
         (["--barometer", "hat"], ("barometer.worn", "hat", "feet, body")),
         (["--set", "barometer.noise=1"], ("barometer.noise", "add --barometer")),
+        (["--set", "magnetometer.dip=1"], ("magnetometer.dip", "add --magnetometer")),
+        (["--magnetometer", "--set", "magnetometer.dip=9"], ("magnetometer.dip", "1.5] rad")),
         (["--barometer", "--set", "barometer.noise=-1"], ("barometer.noise", "-1", "[0, 100] Pa")),
         (["--set", "gait.kapa=0.5"], ("gait.kapa", "kappa")),
         (["--set", "sensor.gyro_noise=much"], ("sensor.gyro_noise", "much")),

@@ -2,7 +2,7 @@
 
 from .config import TrackerConfig
 from .errors import AlignmentError, ConfigError, DualFootError, SeriesError
-from .series import ImuPair, ImuSeries, PoseSeries, PressureSeries
+from .series import FieldSeries, ImuPair, ImuSeries, PoseSeries, PressureSeries
 from .tracker import DualFootTracker
 from .trajectory import Event, EventKind, FootTrajectory, Trajectory
 from .update import Update
@@ -14,6 +14,7 @@ __all__ = [
     "DualFootTracker",
     "Event",
     "EventKind",
+    "FieldSeries",
     "FootTrajectory",
     "ImuPair",
     "ImuSeries",

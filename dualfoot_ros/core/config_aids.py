@@ -25,3 +25,29 @@ class Aids(Parameters):
     barometer_samples: int = parameter(
         3, "pressure samples needed in a stance", minimum=1, maximum=1000
     )
+    magnetic_heading: bool = parameter(
+        False, "heading from the magnetic field in stance, against that on the first stances"
+    )
+    magnetic_std: float = parameter(
+        0.35,
+        "error of the field's direction; what iron on the foot does to it repeats itself",
+        unit="rad",
+        minimum=0.01,
+        maximum=3.0,
+    )
+    magnetic_size: float = parameter(
+        0.06,
+        "share by which the field's size may differ from the reference's",
+        minimum=0.001,
+        maximum=10.0,
+    )
+    magnetic_dip: float = parameter(
+        0.07,
+        "by how much its dip may differ from the reference's",
+        unit="rad",
+        minimum=0.001,
+        maximum=3.2,
+    )
+    magnetic_stances: int = parameter(
+        4, "stances in a row that must agree to be the reference", minimum=2, maximum=100
+    )

@@ -70,6 +70,14 @@ class ImuSeries:
         )
 
     @property
+    def field(self) -> FieldSeries | None:
+        """The magnetic field where it was measured (rows that are nan were not), or None."""
+        if self.magnetic_field is None:
+            return None
+        there = ~np.isnan(self.magnetic_field).all(axis=1)
+        return FieldSeries(self.stamp_ns[there], self.magnetic_field[there])
+
+    @property
     def duration_s(self) -> float:
         """Seconds from the first to the last stamp (0 for fewer than two samples)."""
         return (int(self.stamp_ns[-1]) - int(self.stamp_ns[0])) * 1e-9 if len(self) > 1 else 0.0
@@ -180,6 +188,41 @@ class PressureSeries:
             )
         object.__setattr__(self, "stamp_ns", stamps)
         object.__setattr__(self, "pressure", pressure)
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.stamp_ns)
+
+
+@dataclass(frozen=True)
+class FieldSeries:
+    """The magnetic field over time, in the axes of a foot's sensor (forward-left-up).
+
+    Attributes
+    ----------
+    stamp_ns : (N,) int64, of the same clock as the samples of the feet
+    tesla : (N, 3) T
+
+    Raises
+    ------
+    SeriesError
+        When the two do not have the same length.
+    """
+
+    stamp_ns: IntArray
+    tesla: FloatArray
+
+    def __post_init__(self) -> None:
+        """Bring both arrays to their types and check that the shapes agree."""
+        stamps = np.ascontiguousarray(self.stamp_ns, dtype=np.int64)
+        tesla = np.ascontiguousarray(self.tesla, dtype=np.float64)
+        if stamps.ndim != 1 or tesla.shape != (len(stamps), 3):
+            raise SeriesError(
+                f"stamp_ns has shape {stamps.shape} and tesla {tesla.shape}; allowed is (N,) and "
+                "(N, 3)"
+            )
+        object.__setattr__(self, "stamp_ns", stamps)
+        object.__setattr__(self, "tesla", tesla)
 
     def __len__(self) -> int:
         """Return the number of samples."""

@@ -44,7 +44,7 @@ class Session:
         self._method: Method = module.Method(config.constraint) if known else Method()
         stance = config.stance
         memory = stance.min_stance + stance.min_swing + stance.window + 0.1
-        memory += self._method.memory_s
+        memory += max(each.memory_s for each in (self._method, *aids))
         self._aids = aids
         self.rate_hz = rate_hz
         self.space = Workspace(config, rate_hz, memory)
@@ -189,8 +189,9 @@ class Session:
         return found
 
     def _askable(self) -> list[Method]:
-        """Return the aids, and the method once the heading is known."""
-        return [*self._aids, self._method] if self.headings.known else list(self._aids)
+        """Return the aids and the method, those that need the heading once it is known."""
+        known = self.headings.known
+        return [each for each in (*self._aids, self._method) if known or not each.needs_heading]
 
     def _stance_ended(self, foot: int) -> Found:
         last = self.space.foot(foot, "N_LEAVE") - 1
@@ -235,15 +236,16 @@ class Session:
         """Put the person at ``position`` (3,) m facing ``yaw``; return both tracks' turns."""
         if self.phase == "standing":
             up_m = float(position[2] - self._origin[2])
+            turned = yaw - self.headings.forward
             self._origin = position
             self.headings.face(yaw)
             self._level()
             found: Found = []
         else:
             found = self.headings.set_pose(self._engine, position, yaw, stamp)
-            up_m = found[0].detail["shift"][2]
+            up_m, turned = found[0].detail["shift"][2], found[0].detail["yaw"]
         for method in (*self._aids, self._method):
-            method.moved(up_m)
+            method.moved(up_m, turned)
         self._roll_back.forget()
         self.space.n[at.N_OLDEST] = self.space.epoch + 1
         return found

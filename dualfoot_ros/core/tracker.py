@@ -8,18 +8,25 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .aids import WORN, Barometer, FlatFloor, PressureLog
+from .aids import AidInputs
 from .alignment import Standstill
 from .config import TrackerConfig
-from .constraints.method import Method
 from .errors import AlignmentError, ConfigError
 from .gate import MAX_GAP_NS, TIME_JUMPED, PairGate, next_irregular, regular_samples
 from .kernel import BackgroundEngine, Engine, compiled, interpreted
 from .kernel import layout as at
 from .rows import to_trajectory, turn_rows
-from .series import FloatArray, ImuPair, ImuSeries, IntArray, PressureSeries, stack_pairs
+from .series import (
+    FieldSeries,
+    FloatArray,
+    ImuPair,
+    ImuSeries,
+    IntArray,
+    PressureSeries,
+    stack_pairs,
+)
 from .session import Session
-from .trajectory import Event, EventKind, Trajectory
+from .trajectory import FEET, Event, EventKind, Trajectory
 from .update import Update
 
 RATES_HZ = (5.0, 5000.0)  # beyond these the stamps are wrong, and memory must stay bounded
@@ -48,7 +55,7 @@ class DualFootTracker:
         self._background = BackgroundEngine() if engine == "auto" else None
         self._engine = compiled() if engine == "compiled" else interpreted()
         self._pose: tuple[FloatArray, float] | None = None
-        self._pressure = {worn: PressureLog() for worn in WORN}
+        self._inputs = AidInputs(self.config.aids, self.counters)
         self._begin()
 
     def _begin(self) -> None:
@@ -57,10 +64,7 @@ class DualFootTracker:
         self._gate = PairGate()
         self._early: list[tuple[int, FloatArray]] = []
         self._pending: list[Event] = []
-        aids = self.config.aids
-        self._aids: list[Method] = [FlatFloor(aids)] if aids.flat_floor else []
-        if aids.barometer:
-            self._aids.append(Barometer(aids, self._pressure, self.counters))
+        self._aids = self._inputs.methods()
 
     @property
     def engine(self) -> str:
@@ -137,16 +141,25 @@ class DualFootTracker:
         ConfigError
             When ``worn`` is none of these.
         """
-        refused = self._take_pressure(worn, int(stamp_ns), float(pascal))
-        self._pressure[worn].trim()
+        refused = self._inputs.take_pressure(worn, int(stamp_ns), float(pascal))
+        self._inputs.trim()
         return refused
 
-    def _take_pressure(self, worn: str, stamp_ns: int, pascal: float) -> str | None:
-        if worn not in WORN:
-            raise ConfigError(f"pressure is of '{worn}'; allowed is one of {', '.join(WORN)}")
-        used = self.config.aids.barometer
-        refused = self._pressure[worn].add(stamp_ns, pascal) if used else "pressure_unused"
-        self.counters[refused or "pressures"] += 1
+    def add_magnetic_field(
+        self, foot: str, stamp_ns: int, tesla: Sequence[float] | FloatArray
+    ) -> str | None:
+        """Take the field (3,) T in the axes of the sensor on "left" or "right", forward-left-up.
+
+        It is used when ``aids.magnetic_heading`` is on; the stamp is of the clock of the pairs.
+        Returns the name of why it was refused, if it was; all is counted.
+
+        Raises
+        ------
+        ConfigError
+            When ``foot`` is none of these, or ``tesla`` are not three numbers.
+        """
+        refused = self._inputs.take_field(foot, int(stamp_ns), tesla)
+        self._inputs.trim()
         return refused
 
     def _poll_engine(self) -> None:
@@ -219,10 +232,13 @@ class DualFootTracker:
         left: ImuSeries,
         right: ImuSeries,
         pressure: Mapping[str, PressureSeries] | None = None,
+        fields: Mapping[str, FieldSeries] | None = None,
     ) -> Trajectory:
         """Track two series with equal stamps; the same bits as `add`, one by one.
 
-        ``pressure`` is air pressure by "left", "right" or "both", for the barometer aid.
+        ``pressure`` is air pressure by "left", "right" or "both", for the barometer aid;
+        ``fields`` the magnetic field by "left" or "right" as it was measured, for the magnetic
+        heading (default: that of the series).
 
         Raises
         ------
@@ -231,7 +247,7 @@ class DualFootTracker:
         AlignmentError
             When there is no standstill to align from.
         ConfigError
-            When ``pressure`` has another key.
+            When ``pressure`` or ``fields`` has another key.
         """
         values = stack_pairs(left, right)
         if self._background is not None:
@@ -239,7 +255,10 @@ class DualFootTracker:
             self._use(engine if engine is not None else self._engine)
         for worn, series in (pressure or {}).items():
             for stamp, pascal in zip(series.stamp_ns, series.pressure, strict=True):
-                self._take_pressure(worn, int(stamp), float(pascal))
+                self._inputs.take_pressure(worn, int(stamp), float(pascal))
+        for foot, field in (fields_of(left, right) if fields is None else fields).items():
+            for stamp, tesla in zip(field.stamp_ns.tolist(), field.tesla, strict=True):
+                self._inputs.take_field(foot, stamp, tesla)
         stamps, rows, events = self._run(left.stamp_ns, values)
         if self._session is None:
             raise AlignmentError(self._no_standstill(left))
@@ -285,6 +304,12 @@ class DualFootTracker:
         if kept[first:].all():
             return stamps[first:], out[first:], events
         return stamps[kept], out[kept], events
+
+
+def fields_of(left: ImuSeries, right: ImuSeries) -> dict[str, FieldSeries]:
+    """Return the magnetic field of the feet that have one."""
+    found = zip(FEET, (left.field, right.field), strict=True)
+    return {foot: field for foot, field in found if field is not None and len(field)}
 
 
 def _note(out: FloatArray, row: int, found: Sequence[Event], events: list[Event]) -> None:

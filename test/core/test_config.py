@@ -16,8 +16,8 @@ from dualfoot_ros.core.parameters import ParameterSpec
 SPECS = {spec.name: spec for spec in all_specs()}
 NUMBERS = [s for s in SPECS.values() if type(s.default) in (float, int)]
 PURE = {
-    "from_stance", "to_stance", "threshold", "barometer_samples", "kappa",
-    "iterations", "share", "every", "alpha", "beta", "scaling",
+    "from_stance", "to_stance", "threshold", "barometer_samples", "magnetic_size",
+    "magnetic_stances", "kappa", "iterations", "share", "every", "alpha", "beta", "scaling",
 }  # fmt: skip
 
 

@@ -1,13 +1,19 @@
-"""Aids that combine with any method: what the floor or the air tells about a standing foot."""
+"""Aids that combine with any method: what the floor, the air or the earth tells of a foot."""
 
 from .barometer import WORN, Barometer
+from .field import FieldLog
 from .flat_floor import FlatFloor
+from .inputs import AidInputs
+from .magnetic_heading import MagneticHeading
 from .pressure import PressureLog, height_pressure, pressure_height
 
 __all__ = [
     "WORN",
+    "AidInputs",
     "Barometer",
+    "FieldLog",
     "FlatFloor",
+    "MagneticHeading",
     "PressureLog",
     "height_pressure",
     "pressure_height",

@@ -26,6 +26,8 @@ LONGEST_NS = 30_000_000_000  # of a stance; over more the weather changes
 class Barometer(Method):
     """Observes each stance's mean pressure height against the first stance's."""
 
+    needs_heading = False
+
     def __init__(
         self, config: Aids, logs: Mapping[str, PressureLog], counters: Counter[str]
     ) -> None:
@@ -75,6 +77,6 @@ class Barometer(Method):
         s, nis = estimate.update(rows, [innovation], [variance])
         return Outcome(np.array([innovation]), s, nis, True, detail)
 
-    def moved(self, up_m: float) -> None:
+    def moved(self, up_m: float, turned: float) -> None:
         """Move the reference heights with the track."""
         self._zero = {key: zero - up_m for key, zero in self._zero.items()}

@@ -20,6 +20,8 @@ from ..trajectory import EventKind
 class FlatFloor(Method):
     """Observes the floor's height and a standing foot's place."""
 
+    needs_heading = False
+
     def __init__(self, config: Aids) -> None:
         """Use ``config.floor_std`` and ``config.static_std``."""
         self._config = config
@@ -60,7 +62,7 @@ class FlatFloor(Method):
         s, nis = estimate.update(rows, innovation.tolist(), [self._config.static_std**2] * 2)
         return Outcome(innovation, s, nis, True, {"aid": "flat_floor", "what": "place"})
 
-    def moved(self, up_m: float) -> None:
+    def moved(self, up_m: float, turned: float) -> None:
         """Move the floor with the track."""
         self._floor_m += up_m
         self._stood = [None, None]

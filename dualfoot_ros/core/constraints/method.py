@@ -92,9 +92,11 @@ class Method:
     beyond which ``on_epoch`` is called (infinity: never, below zero: at every epoch);
     ``lever_arm`` (3,) m places the second sensor relative to the first where both are on one shoe;
     ``spacing`` is the distance of the feet side by side, where the method needs it.
+    ``needs_heading``: it is not asked before the heading of the walk is known.
     """
 
     memory_s: float = 0.0
+    needs_heading: bool = True
     watch_m: float = math.inf
     lever_arm: FloatArray | None = None
     spacing: Spacing | None = None
@@ -114,5 +116,5 @@ class Method:
     def note(self, outcome: Outcome) -> None:
         """Take note of what came of a request when it was first applied (not when re-run)."""
 
-    def moved(self, up_m: float) -> None:
-        """Take note that the whole track was turned and moved, up by ``up_m`` m."""
+    def moved(self, up_m: float, turned: float) -> None:
+        """Take note that the whole track was moved ``up_m`` m up and turned by ``turned`` rad."""

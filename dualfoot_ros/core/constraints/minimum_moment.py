@@ -80,7 +80,7 @@ class AtMinimumDistance(Method):
         """Learn the spacing, if it was not given."""
         self.spacing.note(outcome)
 
-    def moved(self, up_m: float) -> None:
+    def moved(self, up_m: float, turned: float) -> None:
         """Learn the placement anew."""
         self.spacing.moved()
 

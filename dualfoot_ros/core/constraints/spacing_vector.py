@@ -99,7 +99,7 @@ class Method(Base):
         """Learn the spacing, if it was not given."""
         self.spacing.note(outcome)
 
-    def moved(self, up_m: float) -> None:
+    def moved(self, up_m: float, turned: float) -> None:
         """Learn the placement anew."""
         self.spacing.moved()
 

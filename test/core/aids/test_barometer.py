@@ -232,7 +232,7 @@ def test_set_pose_takes_the_reference_along():
         for s, p in zip(each.stamp_ns, each.pressure, strict=True)
     ]
     for sample in samples:
-        used._take_pressure(*sample)
+        used._inputs.take_pressure(*sample)
     middle, heights = len(pairs) // 2, []
     for k, pair in enumerate(pairs):
         update = used.add(pair)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from dualfoot_ros.core import PressureSeries, SeriesError
 from dualfoot_ros.core.aids import PressureLog, height_pressure, pressure_height
-from dualfoot_ros.core.aids.pressure import KEEP_NS
+from dualfoot_ros.core.aids.log import KEEP_NS
 
 SECOND = 1_000_000_000
 # Geopotential height (m) and pressure (Pa) of the International Standard Atmosphere.

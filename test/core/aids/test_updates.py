@@ -30,7 +30,7 @@ def rows(*which: int) -> np.ndarray:
 def test_the_floor_is_an_update_of_the_height_now(foot, seed):
     space, estimate = apart(seed, 0.2)
     aid = FlatFloor(CONFIG)
-    aid.moved(1.5)
+    aid.moved(1.5, 0.0)
     (request,) = aid.on_stance_start(stance(foot, 10, 20), gait_until(20))
     assert (request.epoch, request.roll_back) == (20, False)
     before, P = states(space), space.covariance()

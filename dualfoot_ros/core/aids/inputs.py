@@ -1,0 +1,82 @@
+"""What other sensors than the inertial ones have measured: taken, refused and counted."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..config_aids import Aids
+from ..constraints.method import Method
+from ..errors import ConfigError
+from ..series import FloatArray
+from ..trajectory import FEET
+from .barometer import WORN, Barometer
+from .field import FieldLog
+from .flat_floor import FlatFloor
+from .magnetic_heading import MagneticHeading
+from .pressure import PressureLog
+
+Vector = Sequence[float] | FloatArray
+
+
+class AidInputs:
+    """Air pressure and magnetic field of a tracker, and the aids that use them."""
+
+    def __init__(self, config: Aids, counters: Counter[str]) -> None:
+        """Count in ``counters`` what is taken and refused."""
+        self._config, self._counters = config, counters
+        self._pressure = {worn: PressureLog() for worn in WORN}
+        self._fields = {foot: FieldLog() for foot in FEET}
+
+    def methods(self) -> list[Method]:
+        """Return the aids that are on, knowing nothing of the walk yet."""
+        config, counters = self._config, self._counters
+        found: list[Method] = [FlatFloor(config)] if config.flat_floor else []
+        if config.barometer:
+            found.append(Barometer(config, self._pressure, counters))
+        if config.magnetic_heading:
+            found.append(MagneticHeading(config, self._fields, counters))
+        return found
+
+    def take_pressure(self, worn: str, stamp_ns: int, pascal: float) -> str | None:
+        """Take a pressure in Pa; return the name of why not, if it is refused.
+
+        Raises
+        ------
+        ConfigError
+            When ``worn`` is not in WORN.
+        """
+        if worn not in WORN:
+            raise ConfigError(f"pressure is of '{worn}'; allowed is one of {', '.join(WORN)}")
+        used = self._config.barometer
+        refused = self._pressure[worn].add(stamp_ns, pascal) if used else "pressure_unused"
+        self._counters[refused or "pressures"] += 1
+        return refused
+
+    def take_field(self, foot: str, stamp_ns: int, tesla: Vector) -> str | None:
+        """Take a magnetic field (3,) T; return the name of why not, if it is refused.
+
+        Raises
+        ------
+        ConfigError
+            When ``foot`` is none, or ``tesla`` are not three numbers.
+        """
+        if foot not in FEET:
+            raise ConfigError(
+                f"magnetic field is of '{foot}'; allowed is one of {', '.join(FEET)}"
+            )
+        if np.shape(tesla) != (3,):
+            raise ConfigError(f"magnetic field has shape {np.shape(tesla)}; allowed is (3,)")
+        used = self._config.magnetic_heading
+        refused = self._fields[foot].add(stamp_ns, tesla) if used else "field_unused"
+        self._counters[refused or "fields"] += 1
+        return refused
+
+    def trim(self) -> None:
+        """Forget what is too old to be asked for, now and then."""
+        for pressure in self._pressure.values():
+            pressure.trim()
+        for field in self._fields.values():
+            field.trim()

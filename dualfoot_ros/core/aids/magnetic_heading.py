@@ -1,0 +1,149 @@
+"""``magnetic_heading``: the direction of the earth's field, against that on the first stances.
+
+The only thing here that sees the heading error both feet share.  Each stance gives its heading
+once, at its middle, where the foot is slowest: the mean of the field measured around that moment,
+turned to navigation axes by the filter's own attitude, is compared with the reference of the same
+foot, the mean over its first stances of a known heading.  A foot is compared with itself, so what
+magnets and iron on it add drops out as far as it points the same way; the rest repeats from stance
+to stance, which is why ``magnetic_std`` is far above the noise.
+
+With m = (x, y, z) the field in navigation axes and h^2 = x^2 + y^2, the measured heading of the
+field is psi = atan2(y, x).  The attitude error phi of C_hat = (I - [phi x]) C makes m_hat = m +
+m x phi, and d psi = (x dy - y dx) / h^2 gives the row
+
+    d psi / d phi = (x z / h^2, y z / h^2, -1).
+
+Where the field dips steeply (z / h is 3.3 at 73 degrees) a tilt turns it much more than a yaw: the
+first two terms keep the filter from taking for heading what may be tilt.
+
+Indoors the field is that of the building.  A stance counts only where size and dip are those of
+the reference, and the reference counts only when all of its stances agree; until they do it is
+sought further on.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..config_aids import Aids
+from ..constraints.method import Gait, Method, Request, StancePhase
+from ..estimate import JointEstimate, Outcome
+from ..series import FloatArray
+from ..trajectory import FEET, EventKind
+from .field import FieldLog, NavigationField, mean_field
+
+AROUND_NS = 100_000_000  # of the middle of a stance the field is averaged over
+LONGEST_S = 1.2  # a middle farther back than half of it cannot be gone back to
+LEAST_LEVEL = 0.1  # share of the field; one that is steeper has no direction
+E_ATT = 6  # attitude among the error states of a foot, eq. (4) of Liu et al. 2023
+
+
+class MagneticHeading(Method):
+    """Observes the direction of the field in the middle of each stance."""
+
+    memory_s = 0.5 * LONGEST_S
+    needs_heading = True
+
+    def __init__(self, config: Aids, logs: Mapping[str, FieldLog], counters: Counter[str]) -> None:
+        """Read ``logs``, one for each foot; count in ``counters`` the stances that gave none."""
+        self._config, self._logs, self._counters = config, logs, counters
+        self._reference: list[NavigationField | None] = [None, None]
+        self._first: list[list[NavigationField]] = [[], []]
+        self._in_a_row = [0, 0]  # stances of each foot, up to the last, that were alike
+
+    def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
+        """Return the heading of the field in the middle of the stance, if it was measured."""
+        foot, latest = stance.foot, stance.last - round(self.memory_s / stance.period_s)
+        moment = max(stance.moment(0.5), latest)
+        if not gait.remembers(moment):
+            return ()
+        measured = self._measured(stance, moment, gait)
+        if measured is None:
+            self._counters["stances_without_field"] += 1
+            return ()
+
+        trusted = self._in_a_row[foot] + 1 >= self._config.magnetic_stances
+
+        def apply(estimate: JointEstimate) -> Outcome:
+            return self._apply(estimate, foot, measured, trusted)
+
+        return (Request(moment, True, apply, EventKind.AID),)
+
+    def _measured(self, stance: StancePhase, moment: int, gait: Gait) -> FloatArray | None:
+        """Return the mean field (3,) T around ``moment``, in the axes of the foot."""
+        middle_ns = gait.stamp(moment)
+        first_ns = max(middle_ns - AROUND_NS, gait.stamp(stance.first))
+        last_ns = min(middle_ns + AROUND_NS, gait.stamp(stance.last))
+        inside = self._logs[FEET[stance.foot]].between(first_ns, last_ns)
+        return np.mean(inside, axis=0) if inside else None
+
+    def _apply(
+        self, estimate: JointEstimate, foot: int, measured: FloatArray, trusted: bool
+    ) -> Outcome:
+        x, y, z = (estimate.rotation(foot) @ measured).tolist()
+        field, reference = NavigationField(x, y, z), self._reference[foot]
+        if reference is None:
+            return _nothing(foot, field, "reference of the first stances")
+        if not self._alike(field, reference):
+            return _nothing(foot, field, "disturbed")
+        if not trusted:
+            return _nothing(foot, field, "after a disturbance")
+        innovation = math.remainder(field.angle - reference.angle, math.tau)
+        row = heading_row(foot, field)
+        s, nis = estimate.update([row], [innovation], [self._config.magnetic_std**2])
+        return Outcome(np.array([innovation]), s, nis, True, _detail(foot, field))
+
+    def _alike(self, field: NavigationField, reference: NavigationField) -> bool:
+        if field.level < LEAST_LEVEL * field.norm:
+            return False
+        size = abs(field.norm - reference.norm)
+        dip = abs(field.dip - reference.dip)
+        alike = size <= self._config.magnetic_size * reference.norm
+        return alike and dip <= self._config.magnetic_dip
+
+    def note(self, outcome: Outcome) -> None:
+        """Learn the reference from the first stances that agree; count those that are refused."""
+        foot = int(outcome.detail["foot"])
+        alike = outcome.detail.get("reason") != "disturbed"
+        self._in_a_row[foot] = self._in_a_row[foot] + 1 if alike else 0
+        if self._reference[foot] is None:
+            self._learn(foot, NavigationField(*outcome.detail["field"]))
+        elif not outcome.accepted:
+            self._counters["stances_in_disturbed_field"] += 1
+
+    def _learn(self, foot: int, field: NavigationField) -> None:
+        """Take the mean of the last stances for the reference, if they are all like it."""
+        first, enough = self._first[foot], self._config.magnetic_stances
+        first.append(field)
+        del first[:-enough]
+        mean = mean_field(first)
+        if len(first) == enough and all(self._alike(each, mean) for each in first):
+            self._reference[foot] = mean
+        else:
+            self._counters["stances_before_field_reference"] += 1
+
+    def moved(self, up_m: float, turned: float) -> None:
+        """Turn the references with the track."""
+        self._reference = [each and each.turned(turned) for each in self._reference]
+        self._first = [[each.turned(turned) for each in first] for first in self._first]
+
+
+def heading_row(foot: int, field: NavigationField) -> dict[int, float]:
+    """Return the row of the direction of ``field`` for ``foot`` 0 or 1."""
+    attitude, steepness = 15 * foot + E_ATT, field.z / field.level**2
+    return {attitude: field.x * steepness, attitude + 1: field.y * steepness, attitude + 2: -1.0}
+
+
+def _nothing(foot: int, field: NavigationField, reason: str) -> Outcome:
+    detail = {**_detail(foot, field), "reason": reason}
+    return Outcome(np.empty(0), np.empty((0, 0)), float("nan"), False, detail)
+
+
+def _detail(foot: int, field: NavigationField) -> dict[str, Any]:
+    vector = (field.x, field.y, field.z)
+    return {"aid": "magnetic_heading", "foot": foot, "field": vector, "angle": field.angle}

@@ -26,6 +26,7 @@ examples:
   dualfoot evaluate walk --method zupt --json       one JSON object on standard output
   dualfoot evaluate walk --set idc.distance=0.2     another value of one parameter
   dualfoot evaluate walk --set aids.barometer=true  height from the air pressure in the bag
+  dualfoot evaluate lap --set aids.magnetic_heading=true   heading from its magnetic field
   dualfoot evaluate walk --reference markers.yaml   floor markers that are not in the bag's folder
   dualfoot evaluate walk --align umeyama4           best fit over the whole walk
   dualfoot evaluate walk --calibration both.yaml    correct the samples first

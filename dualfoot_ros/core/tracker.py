@@ -257,8 +257,7 @@ class DualFootTracker:
             for stamp, pascal in zip(series.stamp_ns, series.pressure, strict=True):
                 self._inputs.take_pressure(worn, int(stamp), float(pascal))
         for foot, field in (fields_of(left, right) if fields is None else fields).items():
-            for stamp, tesla in zip(field.stamp_ns.tolist(), field.tesla, strict=True):
-                self._inputs.take_field(foot, stamp, tesla)
+            self._inputs.take_fields(foot, field)
         stamps, rows, events = self._run(left.stamp_ns, values)
         if self._session is None:
             raise AlignmentError(self._no_standstill(left))

@@ -30,7 +30,7 @@ from .feet import FeetReport, feet_report
 from .frames import Align, YawTransform
 from .heading import HeadingErrors, heading_errors
 from .markers import MarkerErrors, marker_errors
-from .notes import marker_notes, pressure_notes, refusal_notes
+from .notes import field_notes, marker_notes, pressure_notes, refusal_notes
 from .plain import plain
 
 
@@ -162,6 +162,7 @@ def evaluate(
         notes=(
             *refusal_notes(trajectory.counters),
             *pressure_notes(trajectory.counters),
+            *field_notes(trajectory.counters),
             *marker_notes(marker_report),
         ),
     )

@@ -13,6 +13,10 @@ REFUSED = {
     "out_of_order": "a stamp older than the one before",
     "in_gap": "a gap in the samples",
 }
+FIELD_REFUSED = {
+    "field_out_of_range": "not finite, or no field of the earth in T",
+    "field_out_of_order": "a stamp that is not later than the one before",
+}
 PRESSURE_REFUSED = {
     "pressure_out_of_range": "no air pressure in Pa",
     "pressure_out_of_order": "a stamp that is not later than the one before",
@@ -57,6 +61,32 @@ def pressure_notes(counters: Mapping[str, int]) -> Iterator[str]:
     for name, why in PRESSURE_REFUSED.items():
         if counters.get(name, 0):
             yield f"{_many(counters[name], 'sample')} of air pressure left out: {why}"
+
+
+def field_notes(counters: Mapping[str, int]) -> Iterator[str]:
+    """Say whether a magnetic field was there, and how much of it could be used."""
+    unused = counters.get("field_unused", 0)
+    if unused:
+        yield (
+            f"{_many(unused, 'sample')} of the magnetic field not used; outdoors, with "
+            "aids.magnetic_heading=true, they hold the heading"
+        )
+    without = counters.get("stances_without_field", 0)
+    if without:
+        yield (
+            f"{_many(without, 'stance')} without a magnetic field; check that each foot has one "
+            "and that it is stamped by the clock of the samples"
+        )
+    before = counters.get("stances_before_field_reference", 0)
+    disturbed = counters.get("stances_in_disturbed_field", 0)
+    if before or disturbed:
+        yield (
+            f"magnetic heading: {_many(before, 'stance')} until the field of the start was known, "
+            f"{disturbed} left out because it was disturbed"
+        )
+    for name, why in FIELD_REFUSED.items():
+        if counters.get(name, 0):
+            yield f"{_many(counters[name], 'sample')} of the magnetic field left out: {why}"
 
 
 def marker_notes(reports: Mapping[str, MarkerErrors]) -> Iterator[str]:

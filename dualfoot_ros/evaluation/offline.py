@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from ..core import DualFootTracker, TrackerConfig, Trajectory
 from ..core.series import ImuSeries
+from ..core.tracker import fields_of
 from ..core.trajectory import FEET, stance_middles
 from ..recording.recording import Recording
 from ..timing import align_with_report
@@ -16,25 +17,32 @@ from .errors import EvaluationError
 def track(recording: Recording, config: TrackerConfig | None = None) -> Trajectory:
     """Bring both sensors of a recording on one time grid and track them.
 
-    Air pressure goes along, for the barometer aid.  The counters of the time alignment join those
-    of the tracker under ``sync.``.
+    Air pressure and magnetic field go along, for the aids, as they were measured.  The counters of
+    the time alignment join those of the tracker under ``sync.``.
 
     Raises
     ------
     EvaluationError
         When a foot is missing or has no samples, the feet share no time, or nobody walked after
-        the first standstill.
+        the first standstill; or the magnetic heading is on without any magnetic field.
     DualFootError
         What time alignment and tracker refuse: two recordings in one, no standstill.
     """
     samples = _samples(recording, "left"), _samples(recording, "right")
+    fields = fields_of(*samples)
+    if config is not None and config.aids.magnetic_heading and not fields:
+        raise EvaluationError(
+            "aids.magnetic_heading is on but the recording has no magnetic field of either foot; "
+            "record sensor_msgs/MagneticField on /left/imu/mag and /right/imu/mag with the stamps "
+            "of the samples, or leave the aid off"
+        )
     left, right, report = align_with_report(*samples)
     if len(left) == 0:
         raise EvaluationError(
             f"the feet share no time (overlap {report.overlap_s:.1f} s), so there are no pairs of "
             "samples; were both recorded together, and are their clocks synchronised?"
         )
-    found = DualFootTracker(config).run(left, right, recording.pressure)
+    found = DualFootTracker(config).run(left, right, recording.pressure, fields)
     _check_walked(found, left)
     prepared = {f"sync.{name}": count for name, count in report.counters.items()}
     return replace(found, counters={**prepared, **found.counters})

@@ -24,7 +24,7 @@ LEFT_FROM_RIGHT = (0.6, 0.2)  # forward and left, m: half a stride behind, 0.2 m
 
 
 def repeated(recording: Recording, times: int) -> Recording:
-    """Return the samples of both feet ``times`` times in a row, on one grid; no truth or pressure.
+    """Return the samples of both feet ``times`` times in a row, on one grid, and nothing else.
 
     Floor markers go along with the rounds turned and joined; a closed loop stays none.
     """

@@ -21,6 +21,7 @@ from rclpy.parameter import Parameter
 from ..core import DualFootTracker, TrackerConfig, Trajectory
 from ..core.errors import DualFootError
 from ..core.series import ImuSeries, PressureSeries
+from ..core.tracker import fields_of
 from ..core.trajectory import FEET
 from ..timing import align
 from .collector import CollectorNode
@@ -178,8 +179,9 @@ def run_offline(
     pressure: Mapping[str, PressureSeries] | None = None,
 ) -> Trajectory:
     """Return the batch run of the same samples."""
-    left, right = align(series["left"], series["right"])
-    return DualFootTracker(config).run(left, right, pressure)
+    pair = series["left"], series["right"]
+    left, right = align(*pair)
+    return DualFootTracker(config).run(left, right, pressure, fields_of(*pair))
 
 
 def same_bits(live: Trajectory, batch: Trajectory) -> bool:

@@ -148,3 +148,10 @@ def test_the_barometer_can_be_switched_on_and_its_height_error_is_in_the_table(t
     table = capsys.readouterr().out
     assert "height RMSE (m)" in table
     assert "with aids.barometer=true they give the height" in " ".join(table.split())
+
+
+def test_the_magnetic_heading_without_a_field_in_the_bag_is_one_sentence_and_code_2(bag, capsys):
+    assert main(["evaluate", bag, "--set", "aids.magnetic_heading=true"]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("dualfoot evaluate: error: aids.magnetic_heading is on but")
+    assert "/left/imu/mag" in said and len(said.splitlines()) == 1

@@ -9,7 +9,13 @@ from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.series import ImuSeries, PressureSeries
 from dualfoot_ros.evaluation import EvaluationError, evaluate, track, truth_of
 from dualfoot_ros.recording.recording import Recording
-from dualfoot_ros.simulation import BarometerConfig, WalkConfig, grade, simulate
+from dualfoot_ros.simulation import (
+    BarometerConfig,
+    MagnetometerConfig,
+    WalkConfig,
+    grade,
+    simulate,
+)
 
 
 @pytest.fixture(scope="module")
@@ -114,3 +120,42 @@ def test_pressure_on_another_clock_or_in_other_units_is_noted(climbed):
     hecto = {"left": PressureSeries(left.stamp_ns, left.pressure / 100.0)}
     _, notes = height_rmse(replace(climbed, pressure=hecto), **{"aids.barometer": True})
     assert f"{len(left)} samples of air pressure left out: no air pressure in Pa" in notes
+
+
+@pytest.fixture(scope="module")
+def felt() -> Recording:
+    """Return a simulated lap with truth and a magnetometer on each foot."""
+    walk = WalkConfig(route="track", rate=60.0, standing=5.0)
+    made = simulate(walk, seed=3, magnetometer=MagnetometerConfig())
+    return Recording(made.left, made.right, made.left_truth, made.right_truth)
+
+
+def closed(recording: Recording, on: bool) -> tuple[float, list[str]]:
+    """Return the RMSE of the left foot, m, and the notes."""
+    found = track(recording, TrackerConfig.from_mapping({"aids.magnetic_heading": on}))
+    report = evaluate(found, truth=truth_of(recording))
+    return report.truth_report.left.rmse_horizontal_m, list(report.notes)
+
+
+def test_the_field_of_a_recording_betters_the_track_and_is_offered_where_it_is_not_used(felt):
+    without, notes = closed(felt, False)
+    assert notes == [
+        f"{len(felt.left) + len(felt.right)} samples of the magnetic field not used; outdoors, "
+        "with aids.magnetic_heading=true, they hold the heading"
+    ]
+    better, notes = closed(felt, True)
+    assert better < 0.5 * without
+    assert [note.partition(":")[0] for note in notes] == ["magnetic heading"]
+
+
+def test_a_magnetic_heading_without_a_field_is_refused_with_what_to_record(walked):
+    with pytest.raises(EvaluationError, match="MagneticField on /left/imu/mag and /right/imu/mag"):
+        closed(walked, True)
+
+
+def test_a_field_in_gauss_or_of_one_foot_is_noted(felt):
+    gauss = replace(felt.left, magnetic_field=1e4 * felt.left.magnetic_field)
+    _, notes = closed(replace(felt, left=gauss), True)
+    assert any("stances without a magnetic field; check that each foot" in n for n in notes)
+    said = "samples of the magnetic field left out: not finite, or no field of the earth in T"
+    assert f"{len(gauss)} {said}" in notes

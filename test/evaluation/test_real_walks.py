@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from dualfoot_ros.core import TrackerConfig
+from dualfoot_ros.core import EventKind, TrackerConfig
 from dualfoot_ros.evaluation import evaluate, track
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 
@@ -17,10 +17,10 @@ def walks(folder: Path) -> list[Path]:
     return found
 
 
-def evaluated(path: Path, method: str = "zupt"):
-    """Return the evaluation of one recording, no parameter set by hand."""
+def evaluated(path: Path, method: str = "zupt", **settings):
+    """Return the evaluation of one recording, no parameter set but those of ``settings``."""
     recording = import_recording(ImportOptions(sources=(path,)))
-    found = track(recording, TrackerConfig.from_mapping({"method": method}))
+    found = track(recording, TrackerConfig.from_mapping({"method": method, **settings}))
     return evaluate(found, reference=recording.reference)
 
 
@@ -48,3 +48,23 @@ def test_both_laps_of_the_running_track_close_within_two_and_a_half_percent(dual
         found = evaluated(path)
         assert found.closure.mean_percent < 2.5, path.name
         assert found.trajectory.left.distance_m == pytest.approx(398.0, rel=0.03)
+
+
+MAGNETIC = {"aids.magnetic_heading": True}
+
+
+@pytest.mark.parametrize("method", ["zupt", "idc", "spacing_vector"])
+def test_with_the_magnetic_heading_both_laps_close_within_half_a_percent(dual_feet, method):
+    for path in walks(dual_feet / "running_track"):
+        found = evaluated(path, method, **MAGNETIC)
+        assert found.closure.mean_percent < 0.5, path.name
+        events = found.trajectory.of_kind(EventKind.AID)
+        assert np.mean([event.accepted for event in events]) > 0.95
+
+
+def test_indoors_the_magnetic_heading_finds_no_field_to_hold_on_to_and_changes_nothing(dual_feet):
+    paths = [*walks(dual_feet / "rectangle_cw"), *walks(dual_feet / "figure_eight")]
+    for path in paths:
+        plain, found = evaluated(path).trajectory, evaluated(path, **MAGNETIC).trajectory
+        assert np.abs(found.left.position - plain.left.position).max() < 0.05, path.name
+        assert np.abs(found.right.position - plain.right.position).max() < 0.05, path.name

@@ -10,7 +10,7 @@ import numpy as np
 from ..config_aids import Aids
 from ..constraints.method import Method
 from ..errors import ConfigError
-from ..series import FloatArray
+from ..series import FieldSeries, FloatArray
 from ..trajectory import FEET
 from .barometer import WORN, Barometer
 from .field import FieldLog
@@ -73,6 +73,20 @@ class AidInputs:
         refused = self._fields[foot].add(stamp_ns, tesla) if used else "field_unused"
         self._counters[refused or "fields"] += 1
         return refused
+
+    def take_fields(self, foot: str, series: FieldSeries) -> None:
+        """Take a whole series, one by one.
+
+        Raises
+        ------
+        ConfigError
+            When ``foot`` is none.
+        """
+        if foot in FEET and not self._config.magnetic_heading:
+            self._counters["field_unused"] += len(series)
+            return
+        for stamp, tesla in zip(series.stamp_ns.tolist(), series.tesla, strict=True):
+            self.take_field(foot, stamp, tesla)
 
     def trim(self) -> None:
         """Forget what is too old to be asked for, now and then."""

@@ -13,7 +13,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.task import Future
-from sensor_msgs.msg import FluidPressure, Imu
+from sensor_msgs.msg import FluidPressure, Imu, MagneticField
 
 from ..core.errors import DualFootError
 from ..core.trajectory import FEET
@@ -21,6 +21,7 @@ from ..options import BringupOptions, node_specs
 from . import qos
 from .fusion import FusionNode
 from .imu_adapter import ImuAdapterNode
+from .magnetic import TOPICS as MAGNETIC
 from .parameters import declare, group
 from .pressure import TOPICS
 from .replay import ReplayNode
@@ -121,6 +122,8 @@ def _recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> Node:
         topics[f"{foot}/odometry"] = (Odometry, qos.result(2000))
     if fusion.pressure is not None:
         topics |= {topic: (FluidPressure, qos.sensor(2000)) for topic in TOPICS.values()}
+    if fusion.fields is not None:
+        topics |= {topic: (MagneticField, qos.sensor(2000)) for topic in MAGNETIC.values()}
     topics["odometry"] = (Odometry, qos.result(2000))
     topics["fusion/events"] = (DiagnosticArray, qos.latched(200))
     return RecorderNode(path, topics, **options)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from sensor_msgs.msg import Imu
 
@@ -57,6 +59,10 @@ class Conversion:
         if self._plain:
             return sensed
         return np.concatenate([self._rotation @ sensed[:3], self._rotation @ sensed[3:]])
+
+    def field(self, tesla: Sequence[float]) -> FloatArray:
+        """Return a magnetic field (3,) turned to forward-left-up."""
+        return self._rotation @ np.array(tesla)
 
     def describe(self, message: Imu) -> None:
         """Bring covariances and orientation of ``message`` to the new axes and units.

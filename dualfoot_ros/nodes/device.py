@@ -10,21 +10,22 @@ from collections.abc import Callable
 import numpy as np
 from rclpy.node import Node
 
+from ..core.mounting import Vector
 from ..core.series import FloatArray
 from ..drivers import Checks, Sample, Source, State
 from ..drivers.errors import SourceError
 from ..timing import Counter, Unwrapper
 from .diagnostics import ERROR, WARN, Status
 
-Take = Callable[[int | None, int, FloatArray], None]
+Take = Callable[[int | None, int, FloatArray, Vector | None], None]
 
 
 class Device:
-    """Hands on ``(device_ns or None, arrival_ns, values (6,))`` from a thread of its own.
+    """Hands on ``(device_ns or None, arrival_ns, values (6,), field (3,) T or None)``.
 
-    ``begin`` is called, with the event that says stop, before the first sample: a file waits there
-    for its listeners.  ``ended`` is called once: without a reason when a file is over, with one
-    when reading has failed for good.  Both are called from that thread.
+    It does so from a thread of its own.  ``begin`` is called from there, with the event that says
+    stop, before the first sample: a file waits in it for its listeners.  So is ``ended``, once:
+    without a reason when a file is over, with one when reading has failed for good.
     """
 
     def __init__(
@@ -73,7 +74,8 @@ class Device:
         try:
             for sample in samples:
                 values = np.array((*sample.specific_force, *sample.angular_rate))
-                self._hand_on(self._device_ns(sample), sample.arrival_ns, values)
+                device_ns, field = self._device_ns(sample), sample.magnetic_field
+                self._hand_on(device_ns, sample.arrival_ns, values, field)
         except Exception:
             if self._node.context.ok():
                 raise

@@ -21,6 +21,7 @@ from ..timing import Aligner, ClockModel, Stamping, Sync
 from . import qos
 from .diagnostics import Reporter
 from .health import Health
+from .magnetic import FieldInputs
 from .messages import imu_values, pose_yaw, to_ns
 from .outputs import Outputs
 from .parameters import declare, group
@@ -34,7 +35,8 @@ PROGRAM = Program(
     "fusion",
     "Track both feet: left|right/imu/data_raw (or data_sync) in; left|right/odometry,\n"
     "left|right/path and odometry (the person between the feet) out. With aids.barometer also\n"
-    "left|right/pressure in, or pressure of a sensor worn on the body.",
+    "left|right/pressure in, or pressure of a sensor worn on the body; with\n"
+    "aids.magnetic_heading left|right/imu/mag.",
     "  ros2 run dualfoot_ros fusion\n"
     "  ros2 run dualfoot_ros fusion --ros-args --params-file config/liu2023.yaml\n"
     "  ros2 run dualfoot_ros fusion --ros-args -p method:=zupt \\\n"
@@ -64,7 +66,8 @@ class FusionNode(Node):
         config = TrackerConfig.from_mapping(tracker)
         self.tracker = DualFootTracker(config, engine=own.engine)
         self.aligner = Aligner(group(Sync, values, "aligner."))
-        self.stamper = Stamper(_stamping(own.sync, values), group(ClockModel, values, "clock."))
+        self._stamping = _stamping(own.sync, values)
+        self.stamper = Stamper(self._stamping, group(ClockModel, values, "clock."))
         path = group(PathOptions, values, "path.")
         self.outputs = Outputs(self, frames, path, config.noise.gyro, own.publish_tf)
         self._calibration = for_feet([own.calibration] if own.calibration else [])
@@ -87,9 +90,13 @@ class FusionNode(Node):
         self.pressure: PressureInputs | None = None
         if self.tracker.config.aids.barometer:
             self.pressure = PressureInputs(self, self.tracker.add_pressure, options.depth)
+        self.fields: FieldInputs | None = None
+        if self.tracker.config.aids.magnetic_heading:
+            take = self.tracker.add_magnetic_field
+            self.fields = FieldInputs(self, take, self._stamping, options.depth)
         watched: list[Watched] = [*self.inputs.values()]
-        if self.pressure is not None:
-            watched.append(self.pressure)
+        watched += [self.pressure] if self.pressure is not None else []
+        watched += self.fields.feet.values() if self.fields is not None else []
         self.watch = Watch(self, watched, options.silence)
 
     def _obey(self, frame_id: str) -> None:
@@ -103,10 +110,12 @@ class FusionNode(Node):
         calibration = self._calibration.get(foot)
 
         def receive(message: Imu) -> None:
-            arrival_ns = self.inputs[foot].arrival_ns
-            stamp_ns = self.stamper.stamp(foot, to_ns(message.header.stamp), arrival_ns)
+            arrival_ns, header_ns = self.inputs[foot].arrival_ns, to_ns(message.header.stamp)
+            stamp_ns = self.stamper.stamp(foot, header_ns, arrival_ns)
             if stamp_ns is None:
                 return
+            if self.fields is not None:
+                self.fields.stamped(foot, header_ns, stamp_ns)
             values = imu_values(message)
             if calibration is not None:
                 values = calibration.values(values)

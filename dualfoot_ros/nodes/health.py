@@ -115,6 +115,8 @@ class Health:
             status.note(WARN, f"samples are refused: {', '.join(bad)}")
         if rates.get("tracker stances_without_pressure", 0.0) > 0:
             status.note(WARN, "stances go without air pressure: check its clock and rate")
+        if rates.get("tracker stances_without_field", 0.0) > 0:
+            status.note(WARN, "stances go without a magnetic field: check its stamps and rate")
         if self._external and rates["aligner interpolated"] > 0:
             status.note(WARN, "the streams do not share their stamps; use sync: internal")
 

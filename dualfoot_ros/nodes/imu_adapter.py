@@ -12,7 +12,8 @@ from rclpy.task import Future
 from sensor_msgs.msg import Imu
 
 from ..calibration import SensorCalibration, sensor_calibration
-from ..core.series import FloatArray
+from ..core.mounting import Vector
+from ..core.series import FieldSeries, FloatArray, ImuSeries
 from ..core.trajectory import FEET
 from ..drivers import Checks, SensorCheck
 from ..drivers import Sample as Sensed
@@ -24,6 +25,7 @@ from . import qos, sources
 from .conversion import Conversion
 from .device import Device
 from .diagnostics import WARN, Rates, Reporter, Status
+from .magnetic import FieldOutput
 from .messages import imu_values, new_imu, set_imu_values, set_time, to_ns
 from .parameters import declare, group
 from .player import Player, Sample, in_order, wait_to_begin
@@ -32,9 +34,11 @@ from .stamper import Stamper
 from .suspicion import UnitSuspicion
 from .watch import Input, Watch, watched_publisher
 
+MAG = "imu/mag"
 PROGRAM = Program(
     "imu_adapter",
-    "Publish one sensor as imu/data_raw, in SI units and with axes forward-left-up.",
+    "Publish one sensor as imu/data_raw, in SI units and with axes forward-left-up; a device or\n"
+    "file that has the magnetic field, that too as imu/mag.",
     "  ros2 run dualfoot_ros imu_adapter --ros-args -r __ns:=/left "
     "-p source:=topic:///imu_a/data\n"
     "  ros2 run dualfoot_ros imu_adapter --ros-args -r __ns:=/left "
@@ -89,9 +93,12 @@ class ImuAdapterNode(Node):
         self.check = SensorCheck(group(Checks, values, "checks."))
         self._rates = Rates()
         self._suspicion = UnitSuspicion("this sensor", self.get_logger().warning)
-        depth = group(InputOptions, values, "input.").depth
-        self._out = watched_publisher(self, Imu, "imu/data_raw", qos.sensor(depth))
-        self._own_message = new_imu(self._options.frame_id or f"{self._foot}_imu")
+        self._depth = group(InputOptions, values, "input.").depth
+        self._out = watched_publisher(self, Imu, "imu/data_raw", qos.sensor(self._depth))
+        self._frame_id = self._options.frame_id or f"{self._foot}_imu"
+        self._own_message = new_imu(self._frame_id)
+        self.field: FieldOutput | None = None
+        self._added_ns = 0
         source = sources.parse(self._options.source)
         self.stamper = Stamper(self._stamping(source), group(ClockModel, values, "clock."))
         self._open(source, values)
@@ -108,6 +115,7 @@ class ImuAdapterNode(Node):
             self._play_file(source, group(Play, values, "play."))
 
     def _read_device(self, source: sources.Source, silence_s: float, play: Play) -> None:
+        self._publish_field()
         begin = partial(wait_to_begin, play, self._has_listener)
         self.device = Device(
             self,
@@ -122,7 +130,11 @@ class ImuAdapterNode(Node):
         self.device.start()
 
     def _play_file(self, source: sources.Source, play: Play) -> None:
-        series = {self._foot: sources.load(source, self._foot)}
+        samples = sources.load(source, self._foot)
+        series: dict[str, ImuSeries | FieldSeries] = {self._foot: samples}
+        if (field := samples.field) is not None:
+            self._publish_field()
+            series[MAG] = field
         self.player = Player(
             lambda: in_order(series),
             self._play,
@@ -132,6 +144,9 @@ class ImuAdapterNode(Node):
             finished=self._finish,
         )
         self.player.start()
+
+    def _publish_field(self) -> None:
+        self.field = FieldOutput(self, MAG, self._frame_id, self._depth)
 
     def _has_listener(self) -> bool:
         return bool(self._out.get_subscription_count() > 0)
@@ -164,15 +179,23 @@ class ImuAdapterNode(Node):
             self._send(message, header_ns, self._input.arrival_ns, sensed)
 
     def _play(self, sample: Sample) -> None:
+        if self.field is not None and sample.foot == MAG:
+            field = self._conversion.field(sample.values.tolist())
+            self.field.publish(sample.stamp_ns + self._added_ns, field)
+            return
         sensed = self._sensed(sample.stamp_ns, sample.values)
         if sensed is not None:
             now_ns = int(self.get_clock().now().nanoseconds)
             self._send(self._own_message, sample.stamp_ns, now_ns, sensed)
 
-    def _take(self, device_ns: int | None, arrival_ns: int, values: FloatArray) -> None:
+    def _take(
+        self, device_ns: int | None, arrival_ns: int, values: FloatArray, field: Vector | None
+    ) -> None:
         """Send a sample of a device, which has been checked by its source."""
         sensed = self._conversion.sensed(values)
-        self._send(self._own_message, device_ns, arrival_ns, sensed)
+        stamp_ns = self._send(self._own_message, device_ns, arrival_ns, sensed)
+        if self.field is not None and field is not None and stamp_ns is not None:
+            self.field.publish(stamp_ns, self._conversion.field(field))
 
     def _sensed(self, header_ns: int, values: FloatArray) -> FloatArray | None:
         """Return a sample (6,) in SI units and the axes of the sensor; None: it is refused."""
@@ -185,10 +208,12 @@ class ImuAdapterNode(Node):
 
     def _send(
         self, message: Imu, header_ns: int | None, arrival_ns: int, sensed: FloatArray
-    ) -> None:
+    ) -> int | None:
+        """Publish a sample; return its stamp, None when it has none."""
         stamp_ns = self._stamp(header_ns, arrival_ns)
         if stamp_ns is None:
-            return
+            return None
+        self._added_ns = stamp_ns - (header_ns or 0)
         values = self._conversion.turned(sensed)
         self._suspicion.look(values.tolist())
         set_time(message.header.stamp, stamp_ns)
@@ -196,6 +221,7 @@ class ImuAdapterNode(Node):
         self._conversion.describe(message)
         self._out.publish(message)
         self.counters["relayed"] += 1
+        return stamp_ns
 
     def _stamp(self, header_ns: int | None, arrival_ns: int) -> int | None:
         if header_ns is None:  # a device without a clock
@@ -213,6 +239,8 @@ class ImuAdapterNode(Node):
         rates = self._rates.since_last(self.counters)
         status.values["rate (Hz)"] = rates["relayed"]
         status.values.update(self.counters)
+        if self.field is not None:
+            status.values["magnetic fields"] = self.field.sent
         if self.watch is not None:
             self.watch.describe(status)
         if self.device is not None:

@@ -26,6 +26,7 @@ from ..core.trajectory import FEET
 from ..timing import align
 from .collector import CollectorNode
 from .fusion import FusionNode
+from .magnetic import TOPICS as MAGNETIC
 from .pressure import TOPICS
 from .replay import ReplayNode
 from .shell import destroy
@@ -92,12 +93,15 @@ class LiveGraph:
         received = sum(each.received for each in self.sync.inputs.values())
         pairs = self.sync.aligner.counters["pairs"]
         pressures = self.replay.pressure.sent
-        found = [self.replay.player.played - pressures - received]
+        fields = sum(each.sent for each in self.replay.fields.values())
+        found = [self.replay.player.played - pressures - fields - received]
         for name, fusion in self.fusions.items():
             collector = self.collectors[name].messages
             found.append(2 * pairs - sum(each.received for each in fusion.inputs.values()))
             if fusion.pressure is not None:
                 found.append(pressures - fusion.pressure.received)
+            if fusion.fields is not None:
+                found.append(fields - fusion.fields.received)
             found.append(3 * fusion.outputs.published - sum(map(len, collector.values())))
         return found
 
@@ -194,6 +198,6 @@ def same_bits(live: Trajectory, batch: Trajectory) -> bool:
 
 
 def _inputs(space: str) -> list[str]:
-    names = [*(f"{foot}/imu/data_sync" for foot in FEET), *TOPICS.values()]
+    names = [*(f"{foot}/imu/data_sync" for foot in FEET), *TOPICS.values(), *MAGNETIC.values()]
     remaps = [f"{name}:=/{space}/{name}" for name in names]
     return ["--ros-args", *(word for remap in remaps for word in ("-r", remap))]

@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.series import FloatArray, ImuSeries, PressureSeries
+from ..core.series import FieldSeries, FloatArray, ImuSeries, PressureSeries
 from ..core.trajectory import FEET
 from ..options import Play
 
+Series = ImuSeries | PressureSeries | FieldSeries
 GATE_POLL = 0.0005  # s
 READY_POLL = 0.01  # s
 DISCOVERY_S = 0.5  # a subscriber that is there may take 0.1 s more to find the publisher
@@ -31,7 +32,7 @@ class Sample(NamedTuple):
     values: FloatArray
 
 
-def in_order(series: Mapping[str, ImuSeries | PressureSeries]) -> Iterator[Sample]:
+def in_order(series: Mapping[str, Series]) -> Iterator[Sample]:
     """Yield the samples of all sensors in the order in which they were recorded."""
     tables = {foot: _table(each) for foot, each in series.items() if len(each)}
     due = {f: np.maximum.accumulate(series[f].stamp_ns).tolist() for f in tables}
@@ -133,7 +134,9 @@ def wait_to_begin(play: Play, ready: Callable[[], bool], stop: threading.Event) 
     stop.wait(play.delay)
 
 
-def _table(series: ImuSeries | PressureSeries) -> FloatArray:
+def _table(series: Series) -> FloatArray:
+    if isinstance(series, FieldSeries):
+        return series.tesla
     if isinstance(series, PressureSeries):
         return series.pressure[:, None]
     return np.hstack([series.specific_force, series.angular_rate])

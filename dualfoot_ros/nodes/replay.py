@@ -12,15 +12,17 @@ from rclpy.task import Future
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 
-from ..core.series import ImuSeries, PressureSeries
+from ..core.series import ImuSeries
 from ..core.trajectory import FEET
 from ..options import Play, ReplayOptions, Reports, node_specs
 from ..recording import Recording, RecordingError, read_bag
 from . import qos
 from .diagnostics import Reporter, Status
+from .magnetic import TOPICS as MAGNETIC
+from .magnetic import FieldOutput
 from .messages import new_imu, set_imu_values, set_time
 from .parameters import declare, group
-from .player import Player, Sample, in_order
+from .player import Player, Sample, Series, in_order
 from .pressure import TOPICS, PressureOutputs
 from .shell import Graph, Program, run_nodes
 from .watch import watched_publisher
@@ -29,8 +31,9 @@ DEPTH = 2000
 CLOCK_STEP_NS = 5_000_000
 PROGRAM = Program(
     "replay",
-    "Publish the samples of a bag as left|right/imu/data_raw, its air pressure as\n"
-    "left|right/pressure or pressure, and /clock; ends with the bag.",
+    "Publish the samples of a bag as left|right/imu/data_raw, its magnetic fields as\n"
+    "left|right/imu/mag, its air pressure as left|right/pressure or pressure, and /clock; ends\n"
+    "with the bag.",
     "  ros2 run dualfoot_ros replay --ros-args -p bag:=bags/demo\n"
     "  ros2 run dualfoot_ros replay --ros-args -p bag:=walk.mcap -p play.rate:=4.0 "
     "-p play.loop:=true",
@@ -61,9 +64,16 @@ class ReplayNode(Node):
         recording = _read(own.bag)
         self.series = _series(recording, own.bag)
         pressure = dict(recording.pressure)
-        samples: dict[str, ImuSeries | PressureSeries] = {**self.series}
+        fields = {foot: each.field for foot, each in self.series.items()}
+        samples: dict[str, Series] = {**self.series}
+        samples |= {MAGNETIC[foot]: each for foot, each in fields.items() if each is not None}
         samples |= {TOPICS[worn]: each for worn, each in pressure.items()}
         self.pressure = PressureOutputs(self, pressure, DEPTH)
+        self.fields = {
+            topic: FieldOutput(self, topic, recording.frame(foot), DEPTH)
+            for foot, topic in MAGNETIC.items()
+            if topic in samples
+        }
         self.done: Future = Future()
         self._messages = {foot: new_imu(recording.frame(foot)) for foot in self.series}
         self._out = {
@@ -97,6 +107,9 @@ class ReplayNode(Node):
             and abs(sample.due_ns - self._clock_ns) >= CLOCK_STEP_NS
         ):
             self._publish_clock(sample.due_ns)
+        if sample.foot in self.fields:
+            self.fields[sample.foot].publish(sample.stamp_ns, sample.values)
+            return
         if sample.foot not in self._messages:
             self.pressure.publish(sample.foot, sample.stamp_ns, float(sample.values[0]))
             return

@@ -9,12 +9,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from .aids import AidInputs
-from .alignment import Standstill
 from .config import TrackerConfig
 from .errors import AlignmentError, ConfigError
 from .gate import MAX_GAP_NS, TIME_JUMPED, PairGate, next_irregular, regular_samples
 from .kernel import BackgroundEngine, Engine, compiled, interpreted
 from .kernel import layout as at
+from .opening import Opening
 from .rows import to_trajectory, turn_rows
 from .series import (
     FieldSeries,
@@ -28,8 +28,6 @@ from .series import (
 from .session import Session
 from .trajectory import FEET, Event, EventKind, Trajectory
 from .update import Update
-
-RATES_HZ = (5.0, 5000.0)  # beyond these the stamps are wrong, and memory must stay bounded
 
 
 class DualFootTracker:
@@ -59,10 +57,9 @@ class DualFootTracker:
         self._begin()
 
     def _begin(self) -> None:
-        self._standstill: Standstill | None = None
+        self._opening = Opening(self.config)
         self._session: Session | None = None
         self._gate = PairGate()
-        self._early: list[tuple[int, FloatArray]] = []
         self._pending: list[Event] = []
         self._aids = self._inputs.methods()
 
@@ -84,7 +81,7 @@ class DualFootTracker:
     @property
     def complaint(self) -> str | None:
         """Why the last window of the alignment was no standstill, if it was not."""
-        return self._standstill.complaint if self._standstill else None
+        return self._opening.complaint
 
     def reset(self, stamp_ns: int | None = None, reason: str = "asked for") -> None:
         """Forget everything but the counters and align anew."""
@@ -177,28 +174,12 @@ class DualFootTracker:
         return events
 
     def _align(self, stamp: int, values: FloatArray) -> None:
-        """Collect the standstill; the first samples tell the rate."""
-        if self._standstill is None:
-            self._early.append((stamp, values.copy()))
-            if len(self._early) < 20:
-                return
-            intervals = np.diff([s for s, _ in self._early])
-            rate = float(np.clip(1e9 / max(1.0, float(np.median(intervals))), *RATES_HZ))
-            self._standstill = Standstill(self.config.alignment, self.config.gravity, rate)
-            self._rate_hz = rate
-            early, self._early = self._early, []
-            for s, v in early:
-                self._collect(s, v)
-            return
-        self._collect(stamp, values)
-
-    def _collect(self, stamp: int, values: FloatArray) -> None:
-        still = self._standstill
-        assert still is not None
-        completed = still.add(values)
-        self.counters["alignment_restarts"] = still.restarts
-        if completed and still.ready and self._session is None:
-            self._session = Session(self.config, self._engine, still, self._rate_hz, self._aids)
+        opening = self._opening
+        still = opening.add(stamp, values)
+        if opening.still is not None:
+            self.counters["alignment_restarts"] = opening.still.restarts
+        if still is not None:
+            self._session = Session(self.config, self._engine, still, opening.rate_hz, self._aids)
             self._pending.append(self._session.aligned_event(stamp))
 
     def _track(self, session: Session, stamp: int, dt_ns: int, values: FloatArray) -> Update:

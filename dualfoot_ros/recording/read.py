@@ -107,11 +107,13 @@ def _check_type(topic: str, found: str, expected: str) -> None:
 
 
 def _notes(reader: Reader) -> dict[str, str]:
-    custom = reader.storage.metadata.custom or {}
+    custom = reader.storage.metadata.custom
+    if not isinstance(custom, dict):  # none, or damaged: the samples are what matters
+        return {}
     return {
-        key.removeprefix(NOTE_PREFIX): str(value)
+        str(key).removeprefix(NOTE_PREFIX): str(value)
         for key, value in custom.items()
-        if key.startswith(NOTE_PREFIX)
+        if str(key).startswith(NOTE_PREFIX)
     }
 
 

@@ -36,13 +36,16 @@ def first_second_ms(drift, link, seed):
     return error, first / RATE
 
 
-@settings(max_examples=20, deadline=None)
-@given(drift=drifts, seed=seeds)
-def test_the_first_stamps_over_bluetooth_are_off_by_no_more_than_an_interval(drift, seed):
-    link = bursts(seed)
-    error, _ = first_second_ms(drift, link, seed)
-    assert error.min() > -10.0
-    assert error.max() < 1e3 * link.interval + 10.0  # a link that never was fast so far
+def test_the_first_stamps_over_bluetooth_are_late_by_an_interval_at_most_and_hardly_ever_early():
+    early, late = [], []
+    for seed, drift in enumerate(np.linspace(-300.0, 300.0, 60)):
+        link = bursts(seed)
+        error, _ = first_second_ms(drift, link, seed)
+        early.append(-error.min())
+        late.append(error.max() - 1e3 * link.interval)  # a link that never was fast so far
+    assert max(late) < 0.0
+    assert np.quantile(early, 0.95) < 4.0
+    assert max(early) < 20.0
 
 
 def test_the_first_second_over_bluetooth_is_right_to_a_few_milliseconds_on_most_links():

@@ -98,7 +98,7 @@ class ImuAdapterNode(Node):
         self._frame_id = self._options.frame_id or f"{self._foot}_imu"
         self._own_message = new_imu(self._frame_id)
         self.field: FieldOutput | None = None
-        self._added_ns = 0
+        self._added_ns: int | None = None  # by the stamping, to the newest sample of a file
         source = sources.parse(self._options.source)
         self.stamper = Stamper(self._stamping(source), group(ClockModel, values, "clock."))
         self._open(source, values)
@@ -179,14 +179,20 @@ class ImuAdapterNode(Node):
             self._send(message, header_ns, self._input.arrival_ns, sensed)
 
     def _play(self, sample: Sample) -> None:
-        if self.field is not None and sample.foot == MAG:
-            field = self._conversion.field(sample.values.tolist())
-            self.field.publish(sample.stamp_ns + self._added_ns, field)
+        if sample.foot == MAG:
+            self._play_field(sample)
             return
         sensed = self._sensed(sample.stamp_ns, sample.values)
         if sensed is not None:
             now_ns = int(self.get_clock().now().nanoseconds)
-            self._send(self._own_message, sample.stamp_ns, now_ns, sensed)
+            stamp_ns = self._send(self._own_message, sample.stamp_ns, now_ns, sensed)
+            self._added_ns = None if stamp_ns is None else stamp_ns - sample.stamp_ns
+
+    def _play_field(self, sample: Sample) -> None:
+        """Publish a field of a file, stamped as the sample before it was."""
+        if self.field is not None and self._added_ns is not None:
+            field = self._conversion.field(sample.values.tolist())
+            self.field.publish(sample.stamp_ns + self._added_ns, field)
 
     def _take(
         self, device_ns: int | None, arrival_ns: int, values: FloatArray, field: Vector | None
@@ -213,7 +219,6 @@ class ImuAdapterNode(Node):
         stamp_ns = self._stamp(header_ns, arrival_ns)
         if stamp_ns is None:
             return None
-        self._added_ns = stamp_ns - (header_ns or 0)
         values = self._conversion.turned(sensed)
         self._suspicion.look(values.tolist())
         set_time(message.header.stamp, stamp_ns)

@@ -17,11 +17,12 @@ from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.live_run import run_live, run_offline, same_bits
 from dualfoot_ros.nodes.messages import imu_values, set_time, to_ns
+from dualfoot_ros.nodes.player import Sample
 from dualfoot_ros.nodes.replay import ReplayNode
 from dualfoot_ros.recording import Recording, read_bag, write_bag
 from dualfoot_ros.simulation import MagnetometerConfig, WalkConfig, simulate
 
-from .samples import imu, status_values
+from .samples import STANDING, imu, status_values
 
 ON = {"aids.magnetic_heading": True, "engine": "compiled", "reports.period": 0.1}
 FEET = ("left", "right")
@@ -119,6 +120,20 @@ def test_a_foot_of_a_bag_is_played_with_its_field(bench, felt):
     stamps = series.stamp_ns + 10**9
     for got in (samples, fields):
         assert [to_ns(m.header.stamp) for m in got] == stamps.tolist()
+
+
+def test_a_field_of_a_file_waits_like_its_sample_until_the_clock_is_known(bench, felt):
+    values = {"source": f"file://{felt}", "play.wait": 3600.0, "stamp": "device"}
+    node = bench.add(ImuAdapterNode, values, namespace="left")
+    node.stamper.stamp = lambda foot, header_ns, arrival_ns: (
+        header_ns + 7 if header_ns > 2 else None
+    )
+    stamps = []
+    node.field.publish = lambda stamp_ns, tesla: stamps.append(stamp_ns)
+    for k in range(5):
+        for name, sample in (("left", STANDING), ("imu/mag", np.full(3, 2e-5))):
+            node._play(Sample(k, name, k, sample))
+    assert stamps == [10, 11] and node.counters["relayed"] == 2
 
 
 class Feet:

@@ -18,6 +18,7 @@ from ..recording.checks import require_usable
 from .accuracy import Statistics, statistics
 from .align import Options, Truth
 from .cases import Case
+from .errors import EvaluationError
 from .evaluate import Evaluation, evaluate
 from .feet import passings
 from .offline import track, truth_of
@@ -92,8 +93,10 @@ def compare_one(job: Job) -> Entry:
     Raises
     ------
     DualFootError
-        When the bag cannot be used, or nothing was tracked.
+        When the bag cannot be used, or nothing was tracked; or for a repeated walk with an aid
+        that needs what is not repeated.
     """
+    _check_repeatable(job)
     topics = job.left_topic, job.right_topic
     recording = _read(job.bag, topics, job.allow_nan, job.repeat)
     _warm_up()
@@ -113,6 +116,17 @@ def compare_one(job: Job) -> Entry:
         run_s,
         _tracks(found),
     )
+
+
+def _check_repeatable(job: Job) -> None:
+    """Refuse aids whose field or pressure would jump where one round follows another."""
+    aids = job.case.config.aids
+    for name in ("barometer", "magnetic_heading"):
+        if job.repeat > 1 and getattr(aids, name):
+            raise EvaluationError(
+                f"aids.{name} is on with --repeat {job.repeat}; a round that is repeated "
+                "elsewhere has no air pressure or magnetic field, so leave the aid off"
+            )
 
 
 @lru_cache(maxsize=1)

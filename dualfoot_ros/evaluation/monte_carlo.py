@@ -24,7 +24,13 @@ import numpy as np
 from ..core import DualFootTracker, TrackerConfig, Trajectory
 from ..core.series import FloatArray, IntArray, PoseSeries
 from ..core.trajectory import FEET, EventKind
-from ..simulation import SensorConfig, WalkConfig, simulate
+from ..simulation import (
+    BarometerConfig,
+    MagnetometerConfig,
+    SensorConfig,
+    WalkConfig,
+    simulate,
+)
 from .align import Truth, overlap
 from .association import Footfalls
 from .consistency import attitude_error, nees
@@ -63,7 +69,7 @@ class WalkScores:
 
 
 def score_walk(job: WalkJob) -> WalkScores:
-    """Simulate, track and score one walk.
+    """Simulate, track and score one walk, with the sensors of the aids that are on.
 
     Raises
     ------
@@ -72,8 +78,11 @@ def score_walk(job: WalkJob) -> WalkScores:
     DualFootError
         What the tracker refuses.
     """
-    made = simulate(job.walk, job.sensor, seed=job.seed)
-    run = DualFootTracker(job.config).run(made.left, made.right)
+    aids = job.config.aids
+    barometer = BarometerConfig() if aids.barometer else None
+    magnetometer = MagnetometerConfig() if aids.magnetic_heading else None
+    made = simulate(job.walk, job.sensor, None, job.seed, barometer, magnetometer)
+    run = DualFootTracker(job.config).run(made.left, made.right, made.pressure)
     nis = _nis(run)
     run, truth = overlap(run, (made.left_truth, made.right_truth))
     truth = in_gauge(truth, run, job.config)

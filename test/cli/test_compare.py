@@ -109,6 +109,13 @@ def test_a_walk_repeated_four_times_is_four_times_as_long(bags, capsys):
     assert found[1]["truth"] is None
 
 
+@pytest.mark.parametrize("aid", ["barometer", "magnetic_heading"])
+def test_a_repeated_walk_has_no_pressure_and_no_field_for_an_aid(bags, capsys, aid):
+    arguments = ["--methods", "zupt", "--repeat", "2", "--set", f"aids.{aid}=true", "--jobs", "1"]
+    assert main(["compare", bags[0], *arguments]) == 2
+    assert f"aids.{aid} is on with --repeat 2; " in capsys.readouterr().err
+
+
 def test_an_interrupt_ends_it_cleanly_and_soon(bags):
     arguments = ["--sweep", "kappa=0.3:0.8:0.01", "--methods", "mdmd_ukf", "--jobs", "2"]
     process = subprocess.Popen(

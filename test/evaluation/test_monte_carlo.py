@@ -124,3 +124,16 @@ def test_the_noise_of_constraint_and_zero_velocity_is_not_below_their_innovation
     """Innovations of a stance are alike, so their noise must be larger than each of them is."""
     for name in ("constraint", "zero velocity"):
         assert 0.005 < default_scores[name].mean < 1.0
+
+
+@pytest.mark.parametrize(
+    ("aid", "name"), [("magnetic_heading", "left heading"), ("barometer", "left height")]
+)
+def test_an_aid_is_scored_with_the_sensor_that_it_needs(aid, name):
+    walk = WalkConfig(route="rectangle", rate=60.0, standing=4.0, final_standing=1.0)
+    on = TrackerConfig.from_mapping({f"aids.{aid}": True, "aids.magnetic_std": 0.1})
+    plain, aided = (
+        score_walk(WalkJob(3, walk, SensorConfig(), config)) for config in (TrackerConfig(), on)
+    )
+    variances = [scores.squares[name][1] for scores in (plain, aided)]
+    assert variances[1] < 0.8 * variances[0]

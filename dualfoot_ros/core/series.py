@@ -179,13 +179,7 @@ class PressureSeries:
 
     def __post_init__(self) -> None:
         """Bring both arrays to their types and check that the lengths agree."""
-        stamps = np.ascontiguousarray(self.stamp_ns, dtype=np.int64)
-        pressure = np.ascontiguousarray(self.pressure, dtype=np.float64)
-        if stamps.ndim != 1 or pressure.shape != stamps.shape:
-            raise SeriesError(
-                f"stamp_ns has shape {stamps.shape} and pressure {pressure.shape}; allowed is "
-                "(N,) for both"
-            )
+        stamps, pressure = _checked(self.stamp_ns, "pressure", self.pressure, ())
         object.__setattr__(self, "stamp_ns", stamps)
         object.__setattr__(self, "pressure", pressure)
 
@@ -214,16 +208,24 @@ class FieldSeries:
 
     def __post_init__(self) -> None:
         """Bring both arrays to their types and check that the shapes agree."""
-        stamps = np.ascontiguousarray(self.stamp_ns, dtype=np.int64)
-        tesla = np.ascontiguousarray(self.tesla, dtype=np.float64)
-        if stamps.ndim != 1 or tesla.shape != (len(stamps), 3):
-            raise SeriesError(
-                f"stamp_ns has shape {stamps.shape} and tesla {tesla.shape}; allowed is (N,) and "
-                "(N, 3)"
-            )
+        stamps, tesla = _checked(self.stamp_ns, "tesla", self.tesla, (3,))
         object.__setattr__(self, "stamp_ns", stamps)
         object.__setattr__(self, "tesla", tesla)
 
     def __len__(self) -> int:
         """Return the number of samples."""
         return len(self.stamp_ns)
+
+
+def _checked(
+    stamp_ns: IntArray, name: str, values: FloatArray, columns: tuple[int, ...]
+) -> tuple[IntArray, FloatArray]:
+    """Return stamps (N,) and ``values`` (N, *columns) as arrays of their types."""
+    stamps = np.ascontiguousarray(stamp_ns, dtype=np.int64)
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if stamps.ndim != 1 or array.shape != (len(stamps), *columns):
+        allowed = "(N,) for both" if not columns else f"(N,) and (N, {columns[0]})"
+        raise SeriesError(
+            f"stamp_ns has shape {stamps.shape} and {name} {array.shape}; allowed is {allowed}"
+        )
+    return stamps, array

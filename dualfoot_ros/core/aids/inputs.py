@@ -48,8 +48,7 @@ class AidInputs:
         ConfigError
             When ``worn`` is not in WORN.
         """
-        if worn not in WORN:
-            raise ConfigError(f"pressure is of '{worn}'; allowed is one of {', '.join(WORN)}")
+        _check_worn("pressure", worn, WORN)
         used = self._config.barometer
         refused = self._pressure[worn].add(stamp_ns, pascal) if used else "pressure_unused"
         self._counters[refused or "pressures"] += 1
@@ -63,10 +62,7 @@ class AidInputs:
         ConfigError
             When ``foot`` is none, or ``tesla`` are not three numbers.
         """
-        if foot not in FEET:
-            raise ConfigError(
-                f"magnetic field is of '{foot}'; allowed is one of {', '.join(FEET)}"
-            )
+        _check_worn("magnetic field", foot, FEET)
         if np.shape(tesla) != (3,):
             raise ConfigError(f"magnetic field has shape {np.shape(tesla)}; allowed is (3,)")
         used = self._config.magnetic_heading
@@ -82,7 +78,8 @@ class AidInputs:
         ConfigError
             When ``foot`` is none.
         """
-        if foot in FEET and not self._config.magnetic_heading:
+        _check_worn("magnetic field", foot, FEET)
+        if not self._config.magnetic_heading:
             self._counters["field_unused"] += len(series)
             return
         for stamp, tesla in zip(series.stamp_ns.tolist(), series.tesla, strict=True):
@@ -94,3 +91,8 @@ class AidInputs:
             pressure.trim()
         for field in self._fields.values():
             field.trim()
+
+
+def _check_worn(what: str, worn: str, allowed: Sequence[str]) -> None:
+    if worn not in allowed:
+        raise ConfigError(f"{what} is of '{worn}'; allowed is one of {', '.join(allowed)}")

@@ -5,10 +5,11 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from typing import Generic, TypeVar
 
+from ..gate import TIME_JUMP_NS
+
 T = TypeVar("T")
 
 KEEP_NS = 60_000_000_000
-TIME_JUMP_NS = 1_000_000_000  # further back than this is a new recording, not disorder
 
 
 class Log(Generic[T]):

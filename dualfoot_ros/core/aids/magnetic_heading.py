@@ -129,7 +129,9 @@ class MagneticHeading(Method):
 
     def moved(self, up_m: float, turned: float) -> None:
         """Turn the references with the track."""
-        self._reference = [each and each.turned(turned) for each in self._reference]
+        self._reference = [
+            None if each is None else each.turned(turned) for each in self._reference
+        ]
         self._first = [[each.turned(turned) for each in first] for first in self._first]
 
 

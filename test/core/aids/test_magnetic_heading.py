@@ -331,6 +331,14 @@ def test_a_field_of_no_foot_or_of_no_three_numbers_is_refused_with_what_is_allow
         tracker().add_magnetic_field(foot, 0, tesla)
 
 
+@pytest.mark.parametrize("on", [True, False])
+def test_a_series_of_no_foot_is_refused_even_if_it_is_empty_and_nobody_uses_it(on):
+    made = lap()
+    fields = {"both": FieldSeries(np.empty(0), np.empty((0, 3)))}
+    with pytest.raises(ConfigError, match="magnetic field is of 'both'; allowed is one of left"):
+        tracker(on).run(*align(made.left, made.right), fields=fields)
+
+
 @pytest.mark.parametrize("shape", [(2,), (3, 3), (2, 2)])
 def test_a_series_whose_parts_do_not_fit_together_is_refused(shape):
     with pytest.raises(SeriesError, match="allowed is"):

@@ -47,6 +47,24 @@ def test_after_twenty_seconds_of_ble_the_clock_is_right_to_a_millisecond(drift, 
     assert clock.epoch == 0
 
 
+@given(early=st.floats(0.0, 0.02499), late=st.floats(0.0, 0.02499), burst=st.integers(1, 20))
+def test_a_device_in_step_with_its_link_arrives_alike_whenever_it_samples_in_the_interval(
+    early, late, burst
+):
+    """So what sees stamps and arrivals only cannot tell the offsets of the two clocks apart."""
+    interval_ns = 25_000_000
+    device = np.arange(200 * burst) * (4 * interval_ns // burst)
+    last = device[burst - 1 :: burst]
+
+    def arrived(offset_s):
+        taken = START + last + round(1e9 * offset_s)
+        return np.repeat(-(-taken // interval_ns) * interval_ns, burst)
+
+    phase = -(START + int(last[0])) % interval_ns * 1e-9  # the rest of the interval
+    one, other = (arrived(offset - 0.02499 + phase) for offset in (early, late))
+    assert np.array_equal(one, other)
+
+
 @settings(max_examples=15, deadline=None)
 @given(
     drift=st.floats(-9000.0, 9000.0),

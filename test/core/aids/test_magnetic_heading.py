@@ -320,6 +320,16 @@ def test_one_stamp_from_the_far_future_costs_no_stance_after_it():
     assert found.turned().tobytes() == other.turned().tobytes()
 
 
+@pytest.mark.parametrize("late_ns", [-3 * SECOND, 0, SECOND // 20])
+def test_a_recording_that_begins_anew_is_tracked_as_the_first_time(late_ns):
+    """The logs have the field of the first round under the same stamps, and later ones."""
+    made, used = lap(), tracker()
+    pair = align(made.left, made.right)
+    first, again = (fed_live(used, pair, late_ns) for _ in range(2))
+    assert used.counters["resets"] == 1
+    assert again.turned().tobytes() == first.turned().tobytes()
+
+
 @pytest.mark.parametrize(
     ("foot", "tesla", "words"),
     [("both", NORTH, "one of left, right"), ("left", [1e-5], r"allowed is \(3,\)")],

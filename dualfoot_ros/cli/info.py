@@ -16,6 +16,7 @@ from .bags import add_topic_arguments, load_bag
 if TYPE_CHECKING:
     from ..recording import Recording
     from ..recording.checks import Finding
+    from ..recording.field import FieldFacts
     from ..recording.pressure import PressureFacts
     from ..recording.quality import Quality
     from ..recording.stances import Stances
@@ -106,6 +107,8 @@ def _words(
         yield f"both feet: {_together(qualities['left'], qualities['right'])}"
     for worn, facts in _pressure(recording).items():
         yield f"pressure on {_barometer(worn, facts)}"
+    for foot, field in _fields(recording).items():
+        yield f"magnetic field of the {foot} foot: {_magnetometer(field)}"
     yield f"truth: {_truth(recording)}"
     reference = recording.reference
     yield f"reference: {reference.summary() if reference else 'none'}"
@@ -182,6 +185,22 @@ def _barometer(worn: str, facts: PressureFacts) -> str:
     )
 
 
+def _fields(recording: Recording) -> dict[str, FieldFacts]:
+    from ..recording.checks import fields_of
+
+    return fields_of(recording)
+
+
+def _magnetometer(facts: FieldFacts) -> str:
+    if not facts.samples:
+        return f"none of {facts.all_samples} samples has it"
+    low, median, high = (1e6 * size for size in (facts.low_t, facts.median_t, facts.high_t))
+    return (
+        f"{facts.samples} of {facts.all_samples} samples have it, median {median:.1f} uT, 90 % "
+        f"from {low:.1f} to {high:.1f} uT (evaluate uses it with --set aids.magnetic_heading=true)"
+    )
+
+
 def _truth(recording: Recording) -> str:
     counts = [
         f"{len(truth)} poses of the {foot} foot"
@@ -205,6 +224,7 @@ def _facts(
         "notes": dict(recording.notes),
         "feet": feet,
         "pressure": {worn: asdict(facts) for worn, facts in _pressure(recording).items()},
+        "magnetic_field": {foot: asdict(facts) for foot, facts in _fields(recording).items()},
         "truth": {f: len(t) for f in ("left", "right") if (t := recording.truth(f)) is not None},
         "reference": None if reference is None else reference.summary(),
         "findings": [asdict(f) for f in found],

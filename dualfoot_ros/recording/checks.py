@@ -10,6 +10,8 @@ import numpy as np
 from ..core.series import ImuSeries
 from ..core.trajectory import FEET
 from .errors import RecordingError
+from .field import FieldFacts, field_findings
+from .field import facts_of as field_facts_of
 from .pressure import pressure_findings
 from .quality import Quality, quality_of
 from .recording import Recording
@@ -75,6 +77,15 @@ def findings(
         yield from _stream(foot, quality)
     for name, sentence in pressure_findings(recording.pressure, usable):
         yield Finding("warning", name, sentence)
+    for name, sentence in field_findings(fields_of(recording)):
+        yield Finding("warning", name, sentence)
+
+
+def fields_of(recording: Recording) -> dict[str, FieldFacts]:
+    """Return the facts of the magnetic field of each foot that has one recorded."""
+    series = {foot: recording.imu(foot) for foot in FEET}
+    found = {foot: field_facts_of(s) for foot, s in series.items() if s is not None}
+    return {foot: facts for foot, facts in found.items() if facts is not None}
 
 
 def qualities_of(recording: Recording) -> dict[str, Quality]:

@@ -23,22 +23,25 @@ class Log(Generic[T]):
     def put(self, stamp_ns: int, value: T) -> bool:
         """Take a value; return whether its stamp follows.
 
-        A stamp far before the newest one begins a new recording: what came before is forgotten.
+        A stamp far before the newest one begins a new recording, or shows that the newest was
+        wrong: what is not before it is forgotten.
         """
         if self._stamps and stamp_ns <= self._stamps[-1]:
             if self._stamps[-1] - stamp_ns < TIME_JUMP_NS:
                 return False
-            self._stamps.clear()
-            self._values.clear()
+            kept = bisect_left(self._stamps, stamp_ns)
+            del self._stamps[kept:], self._values[kept:]
         self._stamps.append(stamp_ns)
         self._values.append(value)
         return True
 
     def trim(self) -> None:
-        """Forget what is too old to be asked for, now and then."""
-        newest = self._stamps[-1] if self._stamps else 0
-        if self._stamps and newest - self._stamps[0] > 2 * KEEP_NS:
-            old = bisect_left(self._stamps, newest - KEEP_NS)
+        """Forget what is too old to be asked for, now and then.
+
+        The age is against the stamp before the newest, as that one alone may be wrong.
+        """
+        if len(self._stamps) > 1 and self._stamps[-2] - self._stamps[0] > 2 * KEEP_NS:
+            old = bisect_left(self._stamps, self._stamps[-2] - KEEP_NS)
             del self._stamps[:old], self._values[:old]
 
     def between(self, first_ns: int, last_ns: int) -> list[T]:

@@ -232,14 +232,14 @@ def pairs_of(pair) -> Pairs:
     return Pairs(pair[0].stamp_ns, stack_pairs(*pair))
 
 
-def fed_live(used: DualFootTracker, pair, late_ns: int = 0):
-    """Feed pairs and fields in the order of their stamps; return what came out."""
+def fed_live(used: DualFootTracker, pair, late_ns: int = 0, found=None):
+    """Feed pairs and fields in the order of their stamps; return ``found`` and what came out."""
     waiting = sorted(
         (int(stamp), foot, tesla.tolist())
         for foot, each in zip(FEET, pair, strict=True)
         for stamp, tesla in zip(each.field.stamp_ns, each.field.tesla, strict=True)
     )
-    pairs, found = pairs_of(pair), None
+    pairs = pairs_of(pair)
     for k, one in enumerate(pairs):
         while waiting and waiting[0][0] <= one.stamp_ns - late_ns:
             stamp, foot, tesla = waiting.pop(0)
@@ -311,13 +311,20 @@ def test_bad_fields_are_refused_and_counted_by_name_and_never_raise():
     assert used.counters["field_out_of_range"] == len(bad)
 
 
-def test_one_stamp_from_the_far_future_costs_no_stance_after_it():
+@pytest.mark.parametrize("where", [0.0, 0.6])
+def test_one_stamp_from_the_far_future_costs_no_stance_live_and_in_batch(where):
     made = lap()
     pair = align(made.left, made.right)
-    used, same = tracker(), tracker()
-    used.add_magnetic_field("left", int(pair[0].stamp_ns[-1]) + 10**15, NORTH)
-    found, other = fed_live(used, pair), fed_live(same, pair)
-    assert found.turned().tobytes() == other.turned().tobytes()
+    plain = tracker().run(*pair)
+    field, k = pair[0].field, round(where * len(pair[0]))
+    stamps = np.insert(field.stamp_ns, k, field.stamp_ns[-1] + 10**15)
+    wrong = FieldSeries(stamps, np.insert(field.tesla, k, NORTH, axis=0))
+    found = tracker().run(*pair, fields={"left": wrong, "right": pair[1].field})
+    assert found.left.position.tobytes() == plain.left.position.tobytes()
+    used = tracker()
+    first = fed_live(used, [each[:k] for each in pair]) if k else None
+    used.add_magnetic_field("left", int(stamps[k]), NORTH)
+    same_bits(fed_live(used, [each[k:] for each in pair], found=first), plain)
 
 
 @pytest.mark.parametrize("late_ns", [-3 * SECOND, 0, SECOND // 20])

@@ -77,6 +77,19 @@ def test_a_stamp_from_long_before_begins_a_new_recording():
     assert log.between(0, 200 * SECOND) == [pressure_height(100000.0)]
 
 
+@pytest.mark.parametrize("ahead_ns", [5 * SECOND, 10**16])
+def test_one_stamp_from_the_future_costs_nothing_of_what_was_measured_before(ahead_ns):
+    log, whole = PressureLog(), PressureLog()
+    for k in range(20):
+        for each in (log, whole):
+            assert each.add(k * SECOND, 101325.0 - k) is None
+            each.trim()
+        if k == 10:
+            assert log.add(k * SECOND + ahead_ns, 90000.0) is None
+            log.trim()
+    assert log.between(0, 10**18) == whole.between(0, 10**18)
+
+
 @given(st.lists(st.integers(1, 10**10), min_size=1, max_size=40), st.data())
 def test_between_returns_just_what_was_measured_then(steps, data):
     stamps = np.cumsum(steps).tolist()

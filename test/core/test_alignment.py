@@ -14,7 +14,7 @@ from dualfoot_ros.core import (
     EventKind,
     TrackerConfig,
 )
-from dualfoot_ros.core.alignment import Standstill
+from dualfoot_ros.core.alignment import Average, Standstill, Window, stillness
 from dualfoot_ros.core.config import Alignment
 
 from .harness import GRAVITY, Pairs, cross_matrix, open_session, simulated, standing_samples, walk
@@ -136,6 +136,46 @@ def test_a_foot_that_turns_evenly_without_noise_gives_its_rate_exactly(rate):
         assert np.allclose(still.angular_rate, bias_of(foot), rtol=0.0, atol=1e-15)
         assert np.allclose(still.specific_force, LEVEL, rtol=0.0, atol=1e-13)
         assert still.rate_scatter < 1e-15
+
+
+def test_a_window_counts_by_the_fourth_power_of_its_scatter_and_alike_below_the_floor():
+    scatters = np.array([1e-7, 1e-6, 1e-2, 2e-2])
+    lowest, low, high, higher = stillness(scatters, 1e-4)
+    assert lowest == pytest.approx(low, rel=1e-3)
+    assert high == pytest.approx(16.0 * higher, rel=1e-3)
+    assert low == pytest.approx(1e8 * high, rel=1e-3)
+
+
+def test_the_average_is_that_of_weights_that_fade():
+    rng, average, keep = np.random.default_rng(3), Average(1e-3, 0.9), 0.9
+    windows = [Window(rng.normal(size=12), rng.uniform(1e-4, 1e-2, 12)) for _ in range(40)]
+    for window in windows:
+        average.add(window, 6)
+    scatters = np.array([window.std[9:12].max() for window in windows])
+    weights = stillness(scatters, 1e-3) * keep ** np.arange(39.0, -1.0, -1.0)
+    means = np.array([window.mean[6:12] for window in windows])
+    mean = np.average(means, axis=0, weights=weights)
+    variance = np.average((means - mean) ** 2, axis=0, weights=weights)
+    found = average.result(slides=1)
+    independent = weights.sum() ** 2 / (weights**2).sum()
+    assert np.allclose(found.specific_force, mean[:3], rtol=1e-12, atol=0.0)
+    assert np.allclose(found.angular_rate, mean[3:], rtol=1e-12, atol=0.0)
+    expected = np.sqrt(variance[3:].max() / max(1.0, independent - 1.0))
+    assert found.rate_scatter == pytest.approx(expected, rel=1e-9)
+    assert found.force_scatter == pytest.approx(np.sqrt(0.5 * variance[:3].sum()), rel=1e-9)
+
+
+def test_still_rate_std_decides_from_where_on_windows_count_alike():
+    """A quarter of the stand turns by 0.01 rad/s and shakes."""
+    values, rng = standing_samples(800, RATE).values, np.random.default_rng(0)
+    values[300:500, 3:6] += 0.01 + 0.008 * rng.normal(size=(200, 3))
+    found = []
+    for floor in (1e-3, 1.0):
+        still = Standstill(Alignment(still_rate_std=floor), GRAVITY, RATE)
+        for row in values:
+            still.add(row, restart=False)
+        found.append(still.result()[0].angular_rate.max())
+    assert found[0] < 5e-4 and found[1] == pytest.approx(0.0025, rel=0.3)
 
 
 @cache

@@ -14,6 +14,7 @@ from dualfoot_ros.evaluation.notes import marker_notes, refusal_notes
 from dualfoot_ros.evaluation.output import staged
 from dualfoot_ros.evaluation.plain import plain
 from dualfoot_ros.evaluation.plots import draw_all
+from dualfoot_ros.evaluation.plots.errors import _standing
 from dualfoot_ros.evaluation.table import walk_table
 from dualfoot_ros.evaluation.tum import write_tracks
 from dualfoot_ros.recording.recording import Recording
@@ -173,3 +174,11 @@ def test_feet_of_the_walk_made_by_formula_stand_where_they_are_said_to():
     for truth, stands in ((left, stance[0]), (right, stance[1])):
         moved = np.linalg.norm(np.diff(truth.position, axis=0), axis=1)
         assert moved[stands[1:] & stands[:-1]].max() == 0.0
+
+
+def test_a_heading_error_in_the_swing_is_drawn_as_the_line_from_stance_to_stance():
+    stance = np.array([False, True, True, False, False, True])
+    found = _standing(np.array([9.0, 1.0, 2.0, 70.0, -70.0, 5.0]), stance)
+    assert found.tolist() == [1.0, 1.0, 2.0, 3.0, 4.0, 5.0]
+    never = np.array([1.0, 2.0])
+    assert _standing(never, np.zeros(2, dtype=bool)).tolist() == never.tolist()

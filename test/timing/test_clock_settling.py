@@ -138,3 +138,22 @@ def test_how_long_a_clock_is_learnt_is_told_by_the_host_s_clock():
         assert clock.update(k * 10_000, START + k * 10_000_000) is None  # a wrong unit
     assert clock.state.phase == "settling"
     assert clock.state.age_s == pytest.approx(0.99)
+
+
+def test_an_offset_that_is_asked_for_too_exactly_is_waited_for_as_long_as_settle_says():
+    true, device, _ = recording(30.0, duration=8.0)
+    begins = {}
+    for settle in (2.0, 4.0, 6.0):
+        clock = DeviceClock(ClockModel(tracking_std=1e-6, settle=settle))
+        begins[settle] = begin(follow(clock, device, true)) / RATE
+    for settle, found in begins.items():
+        assert settle <= found <= settle + 1.0
+
+
+def test_stamping_begins_the_sooner_the_less_exact_the_offset_need_be():
+    _, device, arrived = recording(30.0, duration=12.0, link=BleLink(burst=10))
+    begins = [
+        begin(follow(DeviceClock(ClockModel(tracking_std=std, settle=9.0)), device, arrived))
+        for std in (0.05, 0.005, 0.0005)
+    ]
+    assert begins == sorted(begins) and begins[0] < begins[-1]

@@ -120,7 +120,9 @@ def _notes(reader: Reader) -> dict[str, str]:
 def _imu(imu: messages.Table | None, field: messages.Table | None) -> ImuSeries | None:
     if imu is None:
         return None
-    magnetic = None if field is None else _on_stamps(imu, field)
+    magnetic = None
+    if field is not None and len(field.stamp_ns):
+        magnetic = _on_stamps(imu, field)
     rate, force = imu.values[:, messages.RATE], imu.values[:, messages.FORCE]
     return ImuSeries(imu.stamp_ns, force, rate, magnetic)
 

@@ -5,13 +5,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
 
-from dualfoot_ros.recording import Recording, write_bag
+from dualfoot_ros.recording import Recording, read_bag, write_bag
 from dualfoot_ros.recording.checks import fields_of, findings
 from dualfoot_ros.recording.field import facts_of
 
 from .samples import moving
 
+STORE = get_typestore(Stores.ROS2_JAZZY)
 EARTH = np.array([17e-6, 0.0, -45e-6])
 SIZE = float(np.linalg.norm(EARTH))
 
@@ -73,3 +76,38 @@ def test_info_tells_of_the_field_in_words_and_in_json(tmp_path, dualfoot):
     assert "of the right foot: " not in words
     facts = json.loads(dualfoot("info", bag, "--no-stances", "--json").stdout)
     assert facts["magnetic_field"]["left"]["median_t"] == pytest.approx(SIZE)
+
+
+def bag_with(path, field_ns):
+    """Write ten samples of the left foot, a ns apart, and fields of these stamps; return it."""
+    types = STORE.types
+    header, time = types["std_msgs/msg/Header"], types["builtin_interfaces/msg/Time"]
+    vector, field = types["geometry_msgs/msg/Vector3"], types["sensor_msgs/msg/MagneticField"]
+    imu, turn = types["sensor_msgs/msg/Imu"], types["geometry_msgs/msg/Quaternion"]
+    up, nine = vector(x=0.0, y=0.0, z=9.8), np.zeros(9)
+
+    def at(ns):
+        return header(stamp=time(sec=5, nanosec=ns), frame_id="left_imu")
+
+    with Writer(path, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        for name, kind, messages in (
+            ("data_raw", imu, [imu(at(k), turn(0.0, 0.0, 0.0, 1.0), nine, up, nine, up, nine)
+                               for k in range(10)]),
+            ("mag", field, [field(at(ns), vector(*EARTH.tolist()), nine) for ns in field_ns]),
+        ):  # fmt: skip
+            topic = f"/left/imu/{name}"
+            connection = writer.add_connection(topic, kind.__msgtype__, typestore=STORE)
+            for message in messages:
+                data = STORE.serialize_cdr(message, kind.__msgtype__)
+                writer.write(connection, message.header.stamp.nanosec, data)
+    return read_bag(path).left
+
+
+def test_a_field_belongs_to_the_sample_of_its_stamp_and_other_samples_have_none(tmp_path):
+    found = bag_with(tmp_path / "walk", [2, 7, 70]).magnetic_field
+    assert np.flatnonzero(~np.isnan(found).any(axis=1)).tolist() == [2, 7]
+    assert found[7].tolist() == EARTH.tolist()
+
+
+def test_a_topic_without_any_field_is_no_field(tmp_path):
+    assert bag_with(tmp_path / "walk", []).magnetic_field is None

@@ -101,8 +101,8 @@ class Average:
 
     def add(self, window: Window, at: int) -> None:
         """Take a window; the values of the foot start at index ``at``."""
-        mean, scatter = window.mean[at : at + 6], window.std[at + 3 : at + 6].max()
-        weight = float(stillness(scatter, self._floor))
+        mean, scatter = window.mean[at : at + 6], window.std[at + 3 : at + 6].max(keepdims=True)
+        weight = float(stillness(scatter, self._floor)[0])
         self._weight = self._keep * self._weight + weight
         self._squares = self._keep**2 * self._squares + weight**2
         step = mean - self._mean

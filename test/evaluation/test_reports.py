@@ -2,8 +2,11 @@
 
 import io
 import json
+import os
 import shutil
 import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,6 +26,8 @@ from dualfoot_ros.recording.reference import Reference
 from .walks import along, foot, perfect, rectangle, straight, trajectory
 
 PNG = b"\x89PNG\r\n\x1a\n"
+BESIDE = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+EVO = shutil.which("evo_ape", path=BESIDE)
 
 
 def shown(table) -> str:
@@ -152,9 +157,7 @@ def test_a_missed_stance_is_said_in_words():
     assert list(marker_notes({})) == []
 
 
-@pytest.mark.skipif(
-    shutil.which("evo_ape") is None, reason="evo is not installed (pip install evo)"
-)
+@pytest.mark.skipif(EVO is None, reason="evo is not installed (pip install evo)")
 @pytest.mark.parametrize("align", list(Align))
 def test_evo_reads_the_tum_files_and_finds_the_same_ate(align, tmp_path):
     track, truth = drifted()
@@ -162,7 +165,7 @@ def test_evo_reads_the_tum_files_and_finds_the_same_ate(align, tmp_path):
     write_tracks(tmp_path, found)
     for name, errors in (("left", found.truth_report.left), ("right", found.truth_report.right)):
         files = [str(tmp_path / f"{name}_truth.tum"), str(tmp_path / f"{name}.tum")]
-        command = ["evo_ape", "tum", *files, "-r", "trans_part"]
+        command = [EVO, "tum", *files, "-r", "trans_part"]
         text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
         figures = dict(line.split() for line in text.splitlines() if len(line.split()) == 2)
         assert float(figures["rmse"]) == pytest.approx(errors.rmse_m, abs=1e-6)

@@ -99,6 +99,16 @@ def test_while_tracking_the_rate_is_never_off_by_more_than_the_stated_slew():
     assert np.abs(rate + 250.0).max() < 500.0 + 60.0  # the estimate of the skew moves too
 
 
+def test_the_first_seconds_are_sensible():
+    true, device, arrived = recording(1500.0, 900.0)
+    error = errors_ms(follow(DeviceClock(), device, arrived), true)
+    seconds = (true - START) * 1e-9
+    assert not np.isnan(error[seconds > 8.0]).any()
+    assert np.nanmax(np.abs(error)) < 250.0
+    assert np.nanmax(np.abs(error[seconds > 3.0])) < 25.0
+    assert np.abs(error[seconds > 8.0]).max() < 8.0
+
+
 def test_a_perfect_link_is_followed_to_microseconds():
     link = BleLink(burst=1, handling=0.0, failure=0.0, stall=0.0, tail_share=0.0)
     true, device, _ = recording(-700.0, 5.0, link=link)

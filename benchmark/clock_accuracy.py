@@ -5,8 +5,8 @@
 First table: devices with random offset (+-1 h), skew (+-2000 ppm), a 32-bit counter of
 microseconds that wraps, sampling rate and connection interval; error of the host time after 20 s
 against true time plus the least delay of the link.  A run is *starved* when for more than 8 s no
-notification arrives within 2 ms of the least delay: with ``--waits events`` the notification period
-is then nearly a multiple of the connection interval, with ``own`` the link is crowded.
+notification arrives within 2 ms of the least delay: with ``--waits events`` the notification
+period is then nearly a multiple of the connection interval, with ``own`` the link is crowded.
 
 Second table: simulated walks; the same samples once with their true times and once with those of
 the clock model, both through aligner and tracker as they are by default; largest and final

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .clock_config import ClockModel
 from .clock_envelope import Line, LowerEnvelope
+from .clock_late import LateArrivals
 from .clock_settling import SURE, Settling
 from .clock_slew import SlewedTime
 from .clock_state import ClockState
@@ -110,8 +111,7 @@ class DeviceClock:
         self._envelope = LowerEnvelope(config.bin, config.bins, 1e-6 * config.skew_scale)
         self._suspects = Suspects()
         self._settling.begin()
-        self._late_since: Arrival | None = None
-        self._least_late_s = 0.0
+        self._late = LateArrivals(round(1e9 * config.bin))
         self._tracking = False
         for device_ns, arrival_ns in arrivals:
             self._learn(device_ns, arrival_ns)
@@ -169,25 +169,18 @@ class DeviceClock:
         self._begin(arrivals)
 
     def _all_late(self, arrival: Arrival, above_s: float) -> bool:
-        """Tell whether every arrival of the last seconds was later than chance allows.
-
-        The seconds are counted on both clocks: what a long stall held back arrives at once.
-        """
+        """Tell whether every arrival of the last seconds was later than chance allows."""
+        late = self._late
         if above_s <= self.config.jump:
-            self._late_since = None
+            late.end()
             return False
-        if self._late_since is None:
-            self._late_since, self._least_late_s = arrival, above_s
-        self._least_late_s = min(self._least_late_s, above_s)
-        since = self._late_since
-        elapsed_ns = min(arrival[0] - since[0], arrival[1] - since[1])
-        elapsed_s = 1e-9 * elapsed_ns
-        odds = elapsed_s / self.config.bin * self._least_late_s / self._line.scale_s
-        return elapsed_s >= self.config.jump_after and odds > DOUBT
+        late.add(arrival, above_s)
+        odds = late.steps * late.least_s / self._line.scale_s
+        return late.steps * self.config.bin >= self.config.jump_after and odds > DOUBT
 
     def _jump_up(self) -> None:
-        assert self._late_since is not None
-        since_s = self._seconds(self._late_since.device_ns)
+        assert self._late.since is not None
+        since_s = self._seconds(self._late.since.device_ns)
         late = [point for point in self._envelope.points if point[0] >= since_s]
         arrivals = [
             Arrival(device := self._origin_ns + round(1e9 * t), device + self._base_ns + round(y))

@@ -7,13 +7,14 @@ stay below every point: the linear programme of Moon, Skelly and Towsley, "Estim
 of clock skew from network delay measurements" (INFOCOM 1999), whose solution is an edge of the
 lower convex hull (Zhang, Liu and Xia, "Clock synchronization algorithms for network measurements",
 INFOCOM 2002).  Here the same likelihood is kept whole rather than only its maximum: for skew b,
-with h(b) the height at the mean time of the highest line of that slope,
+with d_i(b) the delays above the highest line of that slope that is below all points,
 
-    log p(b) = n h(b) / s - log(1 + (b / b0)^2) + const,
+    log p(b) = -sum_i min(d_i(b), r) / s - log(1 + (b / b0)^2) + const,
 
-n points with mean delay s above the line and a Cauchy prior of scale b0.  Its mean is the
-estimate, its spread the uncertainty.  The least delay itself stays in the offset: no one-way
-measurement can tell it from an offset (Cristian 1989 needs the way back for that).
+s the mean delay, b0 the scale of a Cauchy prior, and r a reach beyond which a delay says no more:
+a stall of 20 s would else tilt the line.  Its mean is the estimate, its spread the uncertainty.
+The least delay itself stays in the offset: no one-way measurement can tell it from an offset
+(Cristian 1989 needs the way back for that).
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ STEEPEST = 0.05  # |skew| that is looked for
 ROUNDS, NODES, DEPTH = 5, 41, 18.0  # quadrature: refinements, nodes, log density kept
 SCALE_S = 0.005  # mean delay of a bin's fastest arrival above the line: guess worth two bins,
 SCALE_LIMITS_S = (2.0e-5, 0.05)  # and what it can be
+REACH_S = 0.25  # a bin whose fastest arrival is later than this was stalled, and says no more
 SHARE = 0.25  # of the bins, the fastest, that tell it: stalls must not
 
 
@@ -124,8 +126,9 @@ class LowerEnvelope:
         scale = self.line.scale_s if self.line else SCALE_S
         line = posterior(points, scale, self._prior)
         above = points[:, 1] - line.height_s - line.skew * (points[:, 0] - line.center_s)
-        seen = -float(np.quantile(above, SHARE)) / math.log(1.0 - SHARE)
-        count = len(points)
+        above = above[above < REACH_S]
+        count = len(above)
+        seen = -float(np.quantile(above, SHARE)) / math.log(1.0 - SHARE) if count else 0.0
         scale = (2.0 * SCALE_S + count * seen) / (count + 2.0)
         scale = min(max(scale, SCALE_LIMITS_S[0]), SCALE_LIMITS_S[1])
         self.line = posterior(points, scale, self._prior)
@@ -140,8 +143,10 @@ def posterior(points: FloatArray, scale_s: float, skew_scale: float) -> Line:
     first, last = -STEEPEST, STEEPEST
     for _ in range(ROUNDS):
         skew = np.linspace(first, last, NODES)
-        height = (high - skew[:, None] * lever).min(axis=1)
-        log_p = count / scale_s * height - np.log1p((skew / skew_scale) ** 2)
+        delayed = high - skew[:, None] * lever
+        height = delayed.min(axis=1)
+        delay = np.minimum(delayed - height[:, None], REACH_S)
+        log_p = -delay.sum(axis=1) / scale_s - np.log1p((skew / skew_scale) ** 2)
         log_p -= log_p.max()
         good = np.flatnonzero(log_p > -DEPTH)
         first, last = skew[max(good[0] - 1, 0)], skew[min(good[-1] + 1, NODES - 1)]

@@ -186,6 +186,22 @@ def test_a_host_clock_that_is_set_is_a_jump_and_followed_again(jump):
     assert np.abs(errors_ms(found[late], host[late])).max() < 3.0
 
 
+@pytest.mark.parametrize("seconds", [1, 6, 19])
+@pytest.mark.parametrize("congested", [0, 300])
+def test_what_a_long_stall_held_back_is_no_jump(seconds, congested):
+    """Also when the samples just before it had been late already."""
+    true, device, arrived = recording(50.0, duration=60.0)
+    arrived = arrived.copy()
+    arrived[2000 - congested : 2000] += 150_000_000
+    arrived[2000:] = np.maximum(arrived[2000:], arrived[2000] + seconds * SECOND)
+    clock = DeviceClock()
+    found = follow(clock, device, arrived)
+    assert clock.epoch == 0
+    error = np.abs(errors_ms(found, true))
+    assert error[2000:].max() < 5.0  # a line of 20 s goes on for up to 19 s
+    assert error[2500 + 100 * seconds :].max() < 3.0
+
+
 def test_a_skew_beyond_the_limit_is_named_and_its_samples_are_not_used():
     _, device, arrived = recording(15_000.0, duration=20.0)
     clock = DeviceClock()

@@ -23,9 +23,17 @@ class Input(Parameters):
     )
     silence: float = parameter(
         2.5,
-        "warn when an input was silent for so long, or never came",
+        "error when an input was silent for so long; of one that has not begun yet, a warning",
         unit="s",
         minimum=0.1,
+        maximum=3600.0,
+    )
+    first: float = parameter(
+        20.0,
+        "error when the first sample takes longer, from when its publisher or link is there; "
+        "meanwhile a device connects and its clock is learnt",
+        unit="s",
+        minimum=0.0,
         maximum=3600.0,
     )
 

@@ -14,8 +14,10 @@ from ..core.mounting import Vector
 from ..core.series import FloatArray
 from ..drivers import Checks, Sample, Source, State
 from ..drivers.errors import SourceError
+from ..options import Input as InputOptions
 from ..timing import Counter, Unwrapper
-from .diagnostics import ERROR, WARN, Status
+from .diagnostics import ERROR, OK, WARN, Status
+from .watch import Complaint, silence
 
 Take = Callable[[int | None, int, FloatArray, Vector | None], None]
 
@@ -33,7 +35,7 @@ class Device:
         node: Node,
         uri: str,
         checks: Checks,
-        silence_s: float,
+        options: InputOptions,
         take: Take,
         ended: Callable[[SourceError | None], None],
         begin: Callable[[threading.Event], None] | None = None,
@@ -46,12 +48,12 @@ class Device:
             When the URI, an option in it or the file it names is not allowed.
         """
         self._node, self._hand_on, self._ended, self._begin = node, take, ended, begin
-        self._silence_s = silence_s
+        self._options = options
         self.without_time = 0
         self.temperature = math.nan
         self._unwrapper: Unwrapper | None = None
         self._last_s = time.monotonic()
-        self._silent = False
+        self._said = OK
         self.source = Source(
             uri,
             self._take,
@@ -96,6 +98,8 @@ class Device:
     def _changed(self, state: State, reason: str) -> None:
         log, uri = self._node.get_logger(), self.source.uri
         if state is State.CONNECTED:
+            if self.source.reader.counters["opened"] == 1:  # to open again is no sign of life
+                self._last_s = time.monotonic()
             log.info(f"source '{uri}' is connected")
         elif state is State.WAITING:
             log.warning(f"source '{uri}' is not there and is tried again: {reason}")
@@ -139,24 +143,28 @@ class Device:
 
     def _describe_silence(self, status: Status) -> None:
         complaint = self.complaint()
-        if complaint is not None:
-            status.note(ERROR, complaint)
-            if not self._silent:
-                self._node.get_logger().warning(complaint)
-        self._silent = complaint is not None
+        if complaint is None:
+            self._said = OK
+            return
+        status.note(*complaint)
+        if complaint.level > self._said:
+            self._node.get_logger().warning(complaint.message)
+            self._said = complaint.level
 
-    def complaint(self) -> str | None:
+    def complaint(self) -> Complaint | None:
         """Return why no sample comes, or None when samples do."""
         state, reason, uri = self.source.state, self.source.reader.reason, self.source.uri
         if state in (State.WAITING, State.FAILED):
-            return f"source '{uri}' is {state.value}: {reason}"
+            return Complaint(ERROR, f"source '{uri}' is {state.value}: {reason}")
         silent_s = time.monotonic() - self._last_s
-        if state is not State.CONNECTED or silent_s < self._silence_s:
+        if state is not State.CONNECTED or silent_s < self._options.silence:
             return None
         decoder = self.source.decoder.counters
         if decoder["samples"] or not decoder["bytes"]:
-            return f"source '{uri}' is connected but was silent for {silent_s:.1f} s"
-        return (
+            who = f"source '{uri}' is connected"
+            return silence(who, decoder["samples"] > 0, silent_s, self._options)
+        return Complaint(
+            ERROR,
             f"source '{uri}' sends bytes but no sample was found in {decoder['bytes']}: "
-            "check format and baud, and what the device is set to send"
+            "check format and baud, and what the device is set to send",
         )

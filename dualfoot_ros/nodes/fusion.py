@@ -97,7 +97,7 @@ class FusionNode(Node):
         watched: list[Watched] = [*self.inputs.values()]
         watched += [self.pressure] if self.pressure is not None else []
         watched += self.fields.feet.values() if self.fields is not None else []
-        self.watch = Watch(self, watched, options.silence)
+        self.watch = Watch(self, watched, options)
 
     def _obey(self, frame_id: str) -> None:
         self._frame_id = frame_id

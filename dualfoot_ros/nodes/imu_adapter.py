@@ -108,20 +108,20 @@ class ImuAdapterNode(Node):
         options = group(InputOptions, values, "input.")
         if source.kind == "topic":
             self._input = Input(self, Imu, source.target, self._relay, qos.sensor(options.depth))
-            self.watch = Watch(self, [self._input], options.silence)
+            self.watch = Watch(self, [self._input], options)
         elif source.kind == sources.DEVICE:
-            self._read_device(source, options.silence, group(Play, values, "play."))
+            self._read_device(source, options, group(Play, values, "play."))
         else:
             self._play_file(source, group(Play, values, "play."))
 
-    def _read_device(self, source: sources.Source, silence_s: float, play: Play) -> None:
+    def _read_device(self, source: sources.Source, options: InputOptions, play: Play) -> None:
         self._publish_field()
         begin = partial(wait_to_begin, play, self._has_listener)
         self.device = Device(
             self,
             source.target,
             self.check.options,
-            silence_s,
+            options,
             self._take,
             self._finish,
             None if sources.is_live(source) else begin,

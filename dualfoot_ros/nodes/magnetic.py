@@ -10,11 +10,12 @@ from sensor_msgs.msg import MagneticField
 
 from ..core.series import FloatArray
 from ..core.trajectory import FEET
+from ..options import Input as InputOptions
 from ..recording.topics import Topics
 from ..timing import Stamping
 from . import qos
 from .messages import set_time, to_ns
-from .watch import Input, watched_publisher
+from .watch import Complaint, Input, watched_publisher
 
 TOPICS = {foot: Topics().of(foot).magnetic_field.lstrip("/") for foot in FEET}
 Take = Callable[[str, int, list[float]], Any]
@@ -30,13 +31,15 @@ class FieldInput(Input):
         super().__init__(node, MagneticField, TOPICS[foot], take, qos.sensor(depth))
         self._foot = foot
 
-    def complaint(self, silence_s: float) -> str | None:
-        """Return why nothing came for ``silence_s``, or None when something did."""
-        found = super().complaint(silence_s)
+    def complaint(self, options: InputOptions) -> Complaint | None:
+        """Return why nothing came for ``options.silence``, or None when something did."""
+        found = super().complaint(options)
+        if found is None:
+            return None
         said = (
             f"aids.magnetic_heading is on but there is no magnetic field of the {self._foot} foot"
         )
-        return None if found is None else f"{said}: {found}"
+        return Complaint(found.level, f"{said}: {found.message}")
 
 
 class FieldInputs:

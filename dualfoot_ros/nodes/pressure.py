@@ -9,10 +9,11 @@ from rclpy.node import Node
 from sensor_msgs.msg import FluidPressure
 
 from ..core.series import PressureSeries
+from ..options import Input as InputOptions
 from ..recording.topics import PRESSURE_TOPICS
 from . import qos
 from .messages import set_time, to_ns
-from .watch import Input, watched_publisher
+from .watch import Complaint, Input, watched_publisher
 
 TOPICS = {worn: topic.lstrip("/") for worn, topic in PRESSURE_TOPICS.items()}
 Take = Callable[[str, int, float], Any]
@@ -47,13 +48,17 @@ class PressureInputs:
         """Samples that were published but have not arrived."""
         return sum(each.lost for each in self._inputs)
 
-    def complaint(self, silence_s: float) -> str | None:
-        """Return why no sensor delivers, or None when one does."""
-        found = [each.complaint(silence_s) for each in self._inputs]
+    def complaint(self, options: InputOptions) -> Complaint | None:
+        """Return why no sensor delivers, or None when one does; as bad as the best of them."""
+        found = [each.complaint(options) for each in self._inputs]
         reasons = [each for each in found if each is not None]
         if len(reasons) < len(found):
             return None
-        return "aids.barometer is on but there is no air pressure: " + "; ".join(reasons)
+        said = "; ".join(each.message for each in reasons)
+        return Complaint(
+            min(each.level for each in reasons),
+            f"aids.barometer is on but there is no air pressure: {said}",
+        )
 
 
 def _receiver(worn: str, take: Take) -> Callable[[FluidPressure], None]:

@@ -53,7 +53,7 @@ class TimeSyncNode(Node):
             foot: Input(self, Imu, f"{foot}/imu/data_raw", self._receiver(foot), profile)
             for foot in FEET
         }
-        self.watch = Watch(self, list(self.inputs.values()), inputs.silence)
+        self.watch = Watch(self, list(self.inputs.values()), inputs)
         self._rates = Rates()
         self._reporter = Reporter(self, group(Reports, values, "reports.").period, self._collect)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from rclpy.clock import Clock, ClockType
 from rclpy.event_handler import (
@@ -16,9 +16,29 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, qos_policy_name_from_kind
 
+from ..options import Input as InputOptions
 from .diagnostics import ERROR, WARN, Status
 
 LOOK_EVERY = 0.25  # s
+
+
+class Complaint(NamedTuple):
+    """Why nothing comes, and how bad that is."""
+
+    level: bytes
+    message: str
+
+
+def silence(who: str, begun: bool, silent_s: float, options: InputOptions) -> Complaint:
+    """Return what to say of an input that could deliver and does not.
+
+    One that has not begun is given time: samples are withheld while a clock is learnt.
+    """
+    if begun:
+        return Complaint(ERROR, f"{who} but was silent for {silent_s:.1f} s")
+    if silent_s < options.first:
+        return Complaint(WARN, f"{who} but no sample yet")
+    return Complaint(ERROR, f"{who} but no sample came for {silent_s:.1f} s")
 
 
 class Input:
@@ -41,7 +61,7 @@ class Input:
         self.lost = 0
         self._number: int | None = None
         self.arrival_ns = 0
-        self.last_s = time.monotonic()
+        self.last_s = self._free_s = time.monotonic()
         self.incompatible = ""
         self._node, self._callback = node, callback
         self._type_name = _type_name(message_type)
@@ -79,11 +99,23 @@ class Input:
     def _on_incompatible(self, event: Any) -> None:
         self.incompatible = qos_policy_name_from_kind(event.last_policy_kind)
 
-    def complaint(self, silence_s: float) -> str | None:
-        """Return why nothing came for ``silence_s``, or None when something did."""
-        silent_s = time.monotonic() - self.last_s
-        if silent_s < silence_s:
+    def complaint(self, options: InputOptions) -> Complaint | None:
+        """Return why nothing came for ``options.silence``, or None when something did."""
+        now_s = time.monotonic()
+        if now_s - self.last_s < options.silence:
             return None
+        fault = self._fault()
+        if fault is not None:
+            self._free_s = now_s  # a first message is waited for from here on only
+            return Complaint(ERROR, fault)
+        begun = self.received > 0
+        since_s = self.last_s if begun else self._free_s
+        count = self._node.count_publishers(self.topic)
+        who = f"topic '{self.topic}' has {count} publisher(s)"
+        return silence(who, begun, now_s - since_s, options)
+
+    def _fault(self) -> str | None:
+        """Return why nothing can come, or None when something could."""
         publishers = self._node.get_publishers_info_by_topic(self.topic)
         types = {p.topic_type for p in publishers} - {self._type_name}
         if not publishers:
@@ -98,10 +130,7 @@ class Input:
                 f"topic '{self.topic}' has a publisher whose QoS does not fit "
                 f"({self.incompatible}), so nothing arrives"
             )
-        return (
-            f"topic '{self.topic}' has {len(publishers)} publisher(s) but was silent for "
-            f"{silent_s:.1f} s"
-        )
+        return None
 
 
 class Watched(Protocol):
@@ -119,15 +148,15 @@ class Watched(Protocol):
     def lost(self) -> int:
         """Messages that have not."""
 
-    def complaint(self, silence_s: float) -> str | None:
-        """Return why nothing came for ``silence_s``, or None when something did."""
+    def complaint(self, options: InputOptions) -> Complaint | None:
+        """Return why nothing came for ``options.silence``, or None when something did."""
 
 
 class Watch:
     """Looks at the inputs of a node by the wall clock and warns once for each new complaint."""
 
-    def __init__(self, node: Node, inputs: Sequence[Watched], silence_s: float) -> None:
-        self._node, self._inputs, self._silence_s = node, inputs, silence_s
+    def __init__(self, node: Node, inputs: Sequence[Watched], options: InputOptions) -> None:
+        self._node, self._inputs, self._options = node, inputs, options
         self._said: dict[str, str | None] = {}
         self._lost: dict[str, int] = {}
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -138,22 +167,22 @@ class Watch:
         for each in self._inputs:
             status.values[f"received {each.topic}"] = each.received
             status.values[f"lost {each.topic}"] = each.lost
-            complaint = each.complaint(self._silence_s)
+            complaint = each.complaint(self._options)
             if complaint is not None:
-                status.note(ERROR, complaint)
+                status.note(*complaint)
             elif each.lost > self._lost.get(each.topic, 0):
                 status.note(WARN, f"samples on '{each.topic}' are lost before they get here")
             self._lost[each.topic] = each.lost
 
     def _look(self) -> None:
         for each in self._inputs:
-            complaint = each.complaint(self._silence_s)
-            kind = complaint and complaint.split(" for ")[0]
+            complaint = each.complaint(self._options)
+            kind = complaint and complaint.message.split(" for ")[0]
             if kind == self._said.get(each.topic):
                 continue
             self._said[each.topic] = kind
             if complaint is not None:
-                self._node.get_logger().warning(complaint)
+                self._node.get_logger().warning(complaint.message)
             else:
                 self._node.get_logger().info(f"topic '{each.topic}' delivers")
 

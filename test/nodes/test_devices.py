@@ -248,6 +248,25 @@ def test_bytes_of_another_format_are_said_to_be_that(bench, send):
     assert adapter.samples == []
 
 
+def test_a_link_without_a_byte_so_far_is_a_warning_at_first_and_then_an_error(bench, tmp_path):
+    """The time that the device was not there does not count."""
+    device = PluggedDevice(tmp_path / "ttyUSB0")
+    values = {"input.silence": 0.5, "input.first": 2.0, "stamp": "header"}
+    adapter = Adapter(bench, f"serial://{device.path}?format=mcu", **values)
+    bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "is waiting"), "no device")
+    adapter.node.device._last_s -= 100.0
+    device.plug()
+    bench.until(lambda: adapter.node.device.source.state is State.CONNECTED, "the port")
+    bench.until(lambda: not adapter.says(DiagnosticStatus.ERROR, "is waiting"), "a report")
+    connected = len(adapter.reports)
+    bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "no sample came for"), "an error")
+    levels = [each.status[0].level for each in adapter.reports[connected - 1 :]]
+    assert levels == sorted(levels) and DiagnosticStatus.WARN in levels
+    device.send(frames.stream("mcu", 20))
+    bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "was silent for"), "silence")
+    device.unplug()
+
+
 def test_readings_at_the_end_of_the_range_and_a_wrong_rate_are_reported(bench, tmp_path):
     path = tmp_path / "capture.bin"
     path.write_bytes(frames.stream("mcu", 300))

@@ -15,6 +15,7 @@ from dualfoot_ros.core.trajectory import EventKind
 from dualfoot_ros.nodes import qos
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.messages import pose_of, rotation_matrix, to_ns, yaw_quaternion
+from dualfoot_ros.options import Input as InputOptions
 from dualfoot_ros.recording import read_bag
 from dualfoot_ros.timing import align
 
@@ -230,14 +231,24 @@ def test_a_bag_that_starts_again_resets_the_filter(bench):
     assert sum(b <= a for a, b in itertools.pairwise(stamps)) == 1
 
 
-def test_one_foot_only_is_said_in_the_diagnostics(bench):
-    walker = Walker(bench, {"input.silence": 0.3})
+@pytest.mark.parametrize(
+    ("first_s", "level", "words"),
+    [
+        (20.0, DiagnosticStatus.WARN, "but no sample yet"),
+        (0.5, DiagnosticStatus.ERROR, "but no sample came for"),
+    ],
+    ids=["at first", "later"],
+)
+def test_one_foot_only_is_said_in_the_diagnostics(bench, first_s, level, words):
+    walker = Walker(bench, {"input.silence": 1.0, "input.first": first_s})
+    right = walker.fusion.inputs["right"]
+    bench.until(lambda: right.complaint(InputOptions(silence=1.0)), "silence of the right foot")
     for k in range(50):
         walker.send("left", k * STEP_NS)
     walker.taken()
     report = walker.report(lambda r: "right/imu/data_raw" in r.status[0].message)
-    assert report.status[0].level == DiagnosticStatus.ERROR
-    assert "silent" in report.status[0].message
+    assert report.status[0].level == level
+    assert f"has 1 publisher(s) {words}" in report.status[0].message
 
 
 def test_units_that_are_not_si_are_said(bench):

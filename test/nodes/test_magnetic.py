@@ -19,6 +19,7 @@ from dualfoot_ros.nodes.live_run import run_live, run_offline, same_bits
 from dualfoot_ros.nodes.messages import imu_values, set_time, to_ns
 from dualfoot_ros.nodes.player import Sample
 from dualfoot_ros.nodes.replay import ReplayNode
+from dualfoot_ros.options import Input as InputOptions
 from dualfoot_ros.recording import Recording, read_bag, write_bag
 from dualfoot_ros.simulation import MagnetometerConfig, WalkConfig, simulate
 
@@ -202,13 +203,13 @@ def test_a_field_gets_the_stamp_its_sample_gets_and_none_before_that_is_known(be
 
 def test_an_aid_without_a_field_is_said_for_each_foot(bench):
     feet = Feet(bench, {**ON, "input.silence": 0.3}).connect()
-    fields = feet.fusion.fields.feet
-    bench.until(lambda: all(each.complaint(0.3) for each in fields.values()), "complaints")
-    said = fields["right"].complaint(0.3)
+    fields, quick = feet.fusion.fields.feet, InputOptions(silence=0.3)
+    bench.until(lambda: all(each.complaint(quick) for each in fields.values()), "complaints")
+    said = fields["right"].complaint(quick).message
     assert said.startswith("aids.magnetic_heading is on but there is no magnetic field of the r")
     assert said.endswith("topic '/right/imu/mag' has no publisher")
     feet.send(10**12, [1e-5, 1e-5, -4e-5])
-    bench.until(lambda: fields["left"].complaint(0.3) is None, "no complaint")
+    bench.until(lambda: fields["left"].complaint(quick) is None, "no complaint")
 
 
 def test_without_the_aid_nobody_listens_to_the_field(bench):

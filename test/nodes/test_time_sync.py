@@ -1,7 +1,11 @@
+import itertools
+
 import numpy as np
 from sensor_msgs.msg import Imu
 
 from dualfoot_ros.nodes import qos
+from dualfoot_ros.nodes.diagnostics import ERROR, WARN, Status
+from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.messages import imu_values, to_ns
 from dualfoot_ros.nodes.time_sync import TimeSyncNode
 from dualfoot_ros.recording import read_bag
@@ -105,6 +109,39 @@ def test_streams_without_a_common_clock_are_paired_by_their_arrivals(bench):
     stamps = [to_ns(m.header.stamp) for m in feet.got["left"]]
     assert stamps == sorted(stamps) and start_ns <= stamps[0]
     assert stamps[-1] <= node.get_clock().now().nanoseconds
+
+
+def test_a_clock_that_is_being_learnt_is_no_silence_of_its_input(bench):
+    """The adapter withholds samples for longer than input.silence; time_sync sees none."""
+    values = {"source": "topic:///device", "stamp": "device"}
+    adapter = bench.add(ImuAdapterNode, values, namespace="left")
+    node, probe, found = bench.add(TimeSyncNode, {"input.silence": 0.5}), bench.plain(), set()
+    topics = ("device", "right/imu/data_raw")
+    out = [probe.create_publisher(Imu, topic, qos.sensor(100)) for topic in topics]
+    numbers = itertools.count()
+
+    def send():
+        message = imu(next(numbers) * STEP_NS)
+        for each in out:
+            each.publish(message)
+
+    def look():
+        status = Status()
+        node.watch.describe(status)
+        if "left/imu/data_raw" in status.message:
+            found.add((status.level, status.message))
+        return found
+
+    bench.until(lambda: all(p.get_subscription_count() for p in out), "discovery")
+    bench.until(lambda: node.count_publishers("left/imu/data_raw"), "the adapter")
+    timer = probe.create_timer(1e-9 * STEP_NS, send)
+    bench.until(lambda: look() and node.inputs["left"].received, "a first sample")
+    assert adapter.stamper.counters["settling"] > 50
+    assert found == {(WARN, "topic '/left/imu/data_raw' has 1 publisher(s) but no sample yet")}
+    found.clear()
+    timer.cancel()
+    bench.until(look, "silence")
+    assert {level for level, _ in found} == {ERROR} and "was silent for" in str(found)
 
 
 def test_a_fixed_offset_brings_two_streams_together(bench):

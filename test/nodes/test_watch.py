@@ -1,42 +1,89 @@
+import pytest
 import rclpy
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
 
 from dualfoot_ros.nodes import qos
-from dualfoot_ros.nodes.diagnostics import ERROR, Status
-from dualfoot_ros.nodes.watch import Input, Watch, watched_publisher
+from dualfoot_ros.nodes.diagnostics import ERROR, WARN, Status
+from dualfoot_ros.nodes.watch import Input, Watch, silence, watched_publisher
+from dualfoot_ros.options import Input as InputOptions
 
 from .samples import imu
+
+QUICK = InputOptions(silence=0.3)
 
 
 def listening(bench, profile=None):
     node = bench.plain("listener")
     each = Input(node, Imu, "imu", lambda _: None, profile or qos.sensor(10))
-    return each, Watch(node, [each], 0.3)
+    return each, Watch(node, [each], QUICK)
+
+
+def said(each):
+    complaint = each.complaint(QUICK)
+    return complaint.message if complaint else ""
+
+
+def level(each):
+    complaint = each.complaint(QUICK)
+    return complaint.level if complaint else None
 
 
 def test_a_topic_without_publisher_is_named(bench):
     each, watch = listening(bench)
-    bench.until(lambda: each.complaint(0.3))
-    assert each.complaint(0.3) == "topic '/imu' has no publisher"
+    bench.until(lambda: said(each))
+    assert each.complaint(QUICK) == (ERROR, "topic '/imu' has no publisher")
     status = Status()
     watch.describe(status)
     assert (status.level, status.message) == (ERROR, "topic '/imu' has no publisher")
 
 
-def test_a_silent_publisher_is_told_from_a_missing_one(bench):
+@pytest.mark.parametrize(
+    ("begun", "silent_s", "expected"),
+    [
+        (False, 2.5, (WARN, "it is there but no sample yet")),
+        (False, 19.9, (WARN, "it is there but no sample yet")),
+        (False, 20.1, (ERROR, "it is there but no sample came for 20.1 s")),
+        (True, 2.5, (ERROR, "it is there but was silent for 2.5 s")),
+    ],
+)
+def test_only_what_has_not_begun_is_given_time(begun, silent_s, expected):
+    assert silence("it is there", begun, silent_s, InputOptions()) == expected
+
+
+def test_an_input_that_has_spoken_is_an_error_as_soon_as_it_is_silent(bench):
+    each, watch = listening(bench)
+    publisher = bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
+    bench.until(lambda: "1 publisher(s) but no sample yet" in said(each), "a publisher")
+    assert level(each) == WARN
+    status = Status()
+    watch.describe(status)
+    assert status.level == WARN and "no sample yet" in status.message
+    publisher.publish(imu(1))
+    bench.until(lambda: each.received == 1)
+    bench.until(lambda: "1 publisher(s) but was silent for" in said(each), "silence")
+    assert level(each) == ERROR
+
+
+def test_a_first_sample_is_waited_for_from_when_its_publisher_is_there(bench):
     each, _ = listening(bench)
+    each.last_s -= 100.0
+    each._free_s -= 100.0
+    bench.until(lambda: "no publisher" in said(each))
     bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
-    bench.until(lambda: "silent" in (each.complaint(0.3) or ""), "silence")
+    bench.until(lambda: "publisher(s)" in said(each), "a publisher")
+    assert level(each) == WARN
+    each._free_s -= 100.0
+    assert level(each) == ERROR and "no sample came for 100." in said(each)
 
 
 def test_a_publisher_whose_qos_does_not_fit_is_said_with_the_policy(bench):
     reliable = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
     each, _ = listening(bench, reliable)
     bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
-    bench.until(lambda: "RELIABILITY" in (each.complaint(0.3) or ""), "incompatible QoS")
-    assert "does not fit" in each.complaint(0.3)
+    bench.until(lambda: "RELIABILITY" in said(each), "incompatible QoS")
+    assert "does not fit" in said(each)
 
 
 def test_a_topic_of_another_type_is_said(bench):
@@ -46,8 +93,8 @@ def test_a_topic_of_another_type_is_said(bench):
     try:
         node = rclpy.create_node("other", context=other)
         node.create_publisher(String, "imu", 10)
-        bench.until(lambda: "std_msgs/msg/String" in (each.complaint(0.3) or ""), "another type")
-        assert "expected is sensor_msgs/msg/Imu" in each.complaint(0.3)
+        bench.until(lambda: "std_msgs/msg/String" in said(each), "another type")
+        assert "expected is sensor_msgs/msg/Imu" in said(each)
         node.destroy_node()
     finally:
         rclpy.try_shutdown(context=other)
@@ -57,10 +104,10 @@ def test_data_ends_the_complaint(bench):
     each, _ = listening(bench)
     publisher = bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
     bench.until(publisher.get_subscription_count)
-    bench.until(lambda: each.complaint(0.3))
+    bench.until(lambda: said(each))
     publisher.publish(imu(1))
     bench.until(lambda: each.received == 1)
-    assert each.complaint(0.3) is None
+    assert each.complaint(QUICK) is None
 
 
 def test_samples_that_a_full_queue_drops_are_counted(bench):

@@ -6,7 +6,9 @@ First table: devices with random offset (+-1 h), skew (+-2000 ppm), a 32-bit cou
 microseconds that wraps, sampling rate and connection interval; error of the host time after 20 s
 against true time plus the least delay of the link.  A run is *starved* when for more than 8 s no
 notification arrives within 2 ms of the least delay: with ``--waits events`` the notification
-period is then nearly a multiple of the connection interval, with ``own`` the link is crowded.
+period is then nearly a multiple of the connection interval, or of a simple part of it, with
+``own`` the link is crowded.  Last how far the offset is off at the end, what the model says of
+that, and how many are off by more than three times what it says.
 
 Second table: simulated walks; the same samples once with their true times and once with those of
 the clock model, both through aligner and tracker as they are by default; largest and final
@@ -40,7 +42,8 @@ WRAP = 1 << 32
 class Run:
     """Errors of one device after 20 s, ms; ``common`` is their mean, ``rms`` and ``worst`` all.
 
-    They are of the samples that were stamped; ``refused`` tells that some were not.
+    They are of the samples that were stamped; ``refused`` tells that some were not.  ``last`` is
+    the error at the end, ``says`` its standard deviation by the model itself.
     """
 
     burst: int
@@ -50,6 +53,8 @@ class Run:
     skew_error_ppm: float
     starved: bool
     refused: bool
+    last: float
+    says: float
 
 
 def follow(device_ns: np.ndarray, arrival_ns: np.ndarray) -> tuple[np.ndarray, DeviceClock]:
@@ -113,6 +118,8 @@ def one_run(burst: int, seed: int, waits: str = "events", duration_s: float = 60
         skew_error_ppm=clock.state.skew_ppm - drift,
         starved=bool(hungry.max() > STARVED_S),
         refused=bool((settled & ~stamped).any()),
+        last=float(error[-1]),
+        says=1e3 * clock.state.offset_std_s,
     )
 
 
@@ -120,7 +127,8 @@ def clock_table(runs: int, seed: int, waits: str) -> Table:
     """Return the table of the errors of the clocks."""
     table = Table(title=f"host time after 20 s, BLE, waits: {waits}")
     for column in ("burst", "link", "runs", "rms ms", "95 %", "max", "worst ms, median", "95 %",
-                   "max", "within 1, 3 ms", "skew rms ppm", "refused"):  # fmt: skip
+                   "max", "within 1, 3 ms", "skew rms ppm", "refused", "at the end: rms", "says",
+                   "beyond 3"):  # fmt: skip
         table.add_column(column)
     for burst in (1, 10):
         every = [one_run(burst, seed + k, waits) for k in range(runs)]
@@ -134,6 +142,7 @@ def clock_table(runs: int, seed: int, waits: str) -> Table:
 def _figures(runs: list[Run]) -> list[str]:
     rms, worst = np.array([r.rms for r in runs]), np.array([r.worst for r in runs])
     refused = np.array([r.refused for r in runs])
+    last, says = np.array([r.last for r in runs]), np.array([r.says for r in runs])
     within = np.mean((rms <= 1.0) & (worst <= 3.0) & ~refused)
     skew = np.sqrt(np.mean([r.skew_error_ppm**2 for r in runs]))
     return [
@@ -146,6 +155,9 @@ def _figures(runs: list[Run]) -> list[str]:
         f"{100.0 * within:.0f} %",
         f"{skew:.1f}",
         str(int(refused.sum())),
+        f"{np.sqrt(np.mean(np.square(last))):.2f}",
+        f"{np.sqrt(np.mean(np.square(says))):.2f}",
+        f"{100.0 * np.mean(np.abs(last) > 3.0 * says):.0f} %",
     ]
 
 
@@ -239,7 +251,7 @@ def main() -> None:
         help="for the next connection event, or drawn anew for each notification (first table)",
     )
     args = parser.parse_args()
-    console = Console(width=140)
+    console = Console(width=180)
     console.print(clock_table(args.runs, args.seed, args.waits))
     if args.walks:
         console.print(walk_table(args.walks, args.seed))

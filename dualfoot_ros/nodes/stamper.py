@@ -9,6 +9,11 @@ from .diagnostics import ERROR, WARN, Status
 
 LARGEST_NS = (1 << 31) * 1_000_000_000  # what a stamp of ROS can hold
 LONG = 4.0  # times clock.settle
+IN_STEP = (
+    "the offset of the {foot} foot's clock is known to {state.offset_std_s:.3f} s only: the "
+    "device sends in step with its link, which delivers every {state.interval_s:.4f} s; change "
+    "either"
+)
 
 
 class Stamper:
@@ -51,11 +56,18 @@ class Stamper:
                 status.note(ERROR, self._refusal(foot, state))
             elif state.phase == "settling":
                 status.note(WARN, self._settling(foot, state))
+            elif self._in_step(state):
+                status.note(WARN, IN_STEP.format(foot=foot, state=state))
         status.values |= {f"clock {name}": n for name, n in self._stamps.counters.items()}
         status.values |= self.counters
         if self.counters["not_stamped"] > self._reported:
             status.note(WARN, "samples are refused: their stamps contradict the arrivals")
         self._reported = self.counters["not_stamped"]
+
+    def _in_step(self, state: ClockState) -> bool:
+        """Tell whether the waits for the events of a link hide the offset of a clock."""
+        unsure = state.offset_std_s > self._model.tracking_std
+        return unsure and state.age_s > LONG * self._model.settle and state.interval_s > 0.0
 
     def _refusal(self, foot: str, state: ClockState) -> str:
         return (
@@ -72,7 +84,7 @@ class Stamper:
 
 def clock_values(foot: str, state: ClockState) -> dict[str, str | float | int]:
     """Return the state of a clock as named values; host minus device, to the microsecond."""
-    return {
+    values: dict[str, str | float | int] = {
         f"{foot} clock": state.phase,
         f"{foot} offset (s)": f"{state.offset_ns * 1e-9:.6f}",
         f"{foot} offset uncertainty (s)": state.offset_std_s,
@@ -81,3 +93,6 @@ def clock_values(foot: str, state: ClockState) -> dict[str, str | float | int]:
         f"{foot} delay (s)": state.delay_s,
         f"{foot} clock resets": state.epoch,
     }
+    if state.interval_s > 0.0:
+        values[f"{foot} link interval (s)"] = state.interval_s
+    return values

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from .clock_config import ClockModel
-from .clock_envelope import Line, LowerEnvelope
+from .clock_envelope import LowerEnvelope
+from .clock_events import ConnectionEvents
 from .clock_late import LateArrivals
+from .clock_line import Line
 from .clock_settling import SURE, Settling
 from .clock_slew import SlewedTime
 from .clock_state import ClockState
@@ -90,7 +92,7 @@ class DeviceClock:
         """What is known now."""
         if self._time is None:
             nan = float("nan")
-            return ClockState("empty", 0.0, 0, nan, nan, nan, nan, self.epoch)
+            return ClockState("empty", 0.0, 0, nan, nan, nan, nan, nan, self.epoch)
         line, now_s = self._line, self._seconds(self._newest_ns)
         return ClockState(
             phase=self._phase(line),
@@ -99,7 +101,8 @@ class DeviceClock:
             offset_std_s=line.std_at(now_s),
             skew_ppm=1e6 * (1.0 / (1.0 + line.skew) - 1.0),
             skew_std_ppm=1e6 * line.skew_var**0.5,
-            delay_s=line.scale_s,
+            delay_s=self._envelope.scale_s,
+            interval_s=self._events.interval_s or float("nan"),
             epoch=self.epoch,
         )
 
@@ -109,6 +112,7 @@ class DeviceClock:
         self._origin_ns = first.device_ns
         self._begun_ns, self._base_ns = first.arrival_ns, first.arrival_ns - first.device_ns
         self._envelope = LowerEnvelope(config.bin, config.bins, 1e-6 * config.skew_scale)
+        self._events = ConnectionEvents(config.bin, config.bins)
         self._suspects = Suspects()
         self._settling.begin()
         self._late = LateArrivals(round(1e9 * config.bin))
@@ -175,7 +179,7 @@ class DeviceClock:
             late.end()
             return False
         late.add(arrival, above_s)
-        odds = late.steps * late.least_s / self._line.scale_s
+        odds = late.steps * late.least_s / self._envelope.scale_s
         return late.steps * self.config.bin >= self.config.jump_after and odds > DOUBT
 
     def _jump_up(self) -> None:
@@ -189,8 +193,14 @@ class DeviceClock:
         self._restart("jumps", arrivals)
 
     def _learn(self, device_ns: int, arrival_ns: int) -> bool:
-        delayed_ns = arrival_ns - device_ns - self._base_ns
-        return self._envelope.add(self._seconds(device_ns), 1e-9 * delayed_ns)
+        time_s, arrival_s = self._seconds(device_ns), 1e-9 * (arrival_ns - self._begun_ns)
+        whole, interval_s = self._events.add(time_s, arrival_s), self._events.interval_s
+        if interval_s is None:
+            self._envelope.unbound()
+        else:
+            for then_s, event_s in whole:
+                self._envelope.bound(then_s, event_s - then_s, interval_s)
+        return self._envelope.add(time_s, arrival_s - time_s)
 
     def _steer(self, device_ns: int, fitted: bool) -> None:
         """Let the translated time run towards the line."""

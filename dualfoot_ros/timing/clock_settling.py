@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from .clock_config import ClockModel
-from .clock_envelope import Line, LowerEnvelope
+from .clock_envelope import LowerEnvelope
+from .clock_line import Line
 
 ARRIVALS = 30  # at different times: the fastest of so few bursts may still be a slow one
 SURE = 3.0  # standard deviations

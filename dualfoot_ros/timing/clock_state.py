@@ -21,6 +21,8 @@ class ClockState:
     skew_ppm : how much faster the device's clock runs
     skew_std_ppm : its standard deviation
     delay_s : mean delay of the fastest arrivals above the least one, s
+    interval_s : of the events at which the link delivers, s; nan when there are none, or too few
+        notifications came to tell
     epoch : restarts and jumps so far
     """
 
@@ -31,4 +33,5 @@ class ClockState:
     skew_ppm: float
     skew_std_ppm: float
     delay_s: float
+    interval_s: float
     epoch: int

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 from dualfoot_ros.nodes.diagnostics import ERROR, OK, WARN, Status
@@ -5,6 +6,7 @@ from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.stamper import Stamper
 from dualfoot_ros.nodes.time_sync import TimeSyncNode
+from dualfoot_ros.simulation.arrivals import BleLink, arrivals
 from dualfoot_ros.timing import ClockModel, Stamping
 
 from .samples import imu
@@ -121,3 +123,18 @@ def test_an_adapter_publishes_no_sample_before_the_clock_of_its_device_is_known(
         node._relay(imu(k * STEP_NS))
     withheld = node.stamper.counters["settling"]
     assert 100 <= withheld <= 300 and node.counters["relayed"] == 600 - withheld
+
+
+def test_a_device_in_step_with_its_link_is_warned_of():
+    """100 ms from notification to notification, 25 ms from event to event: nothing ever slips."""
+    link, stamper = BleLink(interval=0.025), Stamper(Stamping(left="device"), ClockModel())
+    sampled = np.arange(3000) * STEP_NS
+    arrived = HOUR_NS + arrivals(link, sampled, np.random.default_rng(1))
+    for k, (sampled_ns, arrived_ns) in enumerate(zip(sampled, arrived, strict=True)):
+        stamper.stamp("left", int(sampled_ns), int(arrived_ns))
+        if k == 1500:
+            assert described(stamper).level == OK  # it may slip yet
+    status = described(stamper)
+    assert status.level == WARN
+    assert "in step with its link, which delivers every 0.0250 s" in status.message
+    assert status.values["left link interval (s)"] == pytest.approx(0.025, rel=1e-4)

@@ -1,50 +1,11 @@
-"""The line under all arrivals: offset and skew with an uncertainty that means something."""
+"""The line under all arrivals is kept up with every one, in bounded memory."""
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from dualfoot_ros.timing.clock_envelope import LowerEnvelope, posterior
+from dualfoot_ros.timing.clock_envelope import LowerEnvelope
 
-
-def cloud(skew=0.0, height=0.0, count=120, spacing=0.5, delay=0.005, seed=0):
-    rng = np.random.default_rng(seed)
-    time = spacing * (np.arange(count) + rng.random(count))
-    return np.column_stack([time, height + skew * time + rng.exponential(delay, count)])
-
-
-@settings(max_examples=60, deadline=None)
-@given(
-    skew=st.floats(-0.02, 0.02),
-    height=st.floats(-10.0, 10.0),
-    seed=st.integers(0, 10_000),
-)
-def test_offset_and_skew_of_exponential_delays_are_found(skew, height, seed):
-    points = cloud(skew, height, seed=seed)
-    line = posterior(points, 0.005, 1e-4)
-    assert line.skew == pytest.approx(skew, abs=6e-5)
-    assert line.at(60.0) == pytest.approx(height + skew * 60.0, abs=1.5e-3)
-
-
-def test_the_uncertainty_is_the_scatter_of_the_estimates():
-    scaled = []
-    for seed in range(200):
-        line = posterior(cloud(3e-4, 0.1, seed=seed), 0.005, 1e-4)
-        scaled.append((line.at(60.0) - 0.1 - 3e-4 * 60.0) / line.std_at(60.0))
-    assert abs(np.mean(scaled)) < 0.25
-    assert 0.8 < np.std(scaled) < 1.25
-
-
-@settings(max_examples=30, deadline=None)
-@given(shift=st.floats(-100.0, 100.0), tilt=st.floats(-0.01, 0.01))
-def test_a_shift_and_a_tilt_of_all_points_move_the_line_by_just_that(shift, tilt):
-    points = cloud()
-    moved = points + np.column_stack([np.zeros(len(points)), shift + tilt * points[:, 0]])
-    # A wide prior, so that the tilt is not held against the line.
-    before, after = posterior(points, 0.005, 1.0), posterior(moved, 0.005, 1.0)
-    assert after.skew - before.skew == pytest.approx(tilt, abs=2e-6)
-    assert after.at(30.0) - before.at(30.0) == pytest.approx(shift + 30.0 * tilt, abs=1e-4)
+from .test_clock_line import cloud
 
 
 def test_slow_arrivals_change_nothing():

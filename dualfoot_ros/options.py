@@ -9,7 +9,7 @@ from .core.mounting import Mounting
 from .core.parameters import Parameters, ParameterSpec, parameter
 from .drivers.checks import Checks
 from .timing import ClockModel, Stamping, Sync
-from .timing.clock_stamps import POLICIES
+from .timing.clock.stamps import POLICIES
 
 SYNC_CHOICES = ("internal", "external")
 

@@ -14,7 +14,7 @@ from .progress import progress
 
 if TYPE_CHECKING:
     from ..recording import Recording
-    from ..timing.motion_recording import Synchronised
+    from ..timing.offset.recording import Synchronised
 
 HELP = "find the offset between the clocks of the two feet, and write a bag without it"
 EXAMPLES = """\
@@ -75,7 +75,7 @@ def run(args: argparse.Namespace) -> int:
 def _synchronise(recording: Recording, args: argparse.Namespace) -> Synchronised:
     from ..recording.arrivals import read_arrivals
     from ..timing import TimingError
-    from ..timing.motion_recording import synchronise
+    from ..timing.offset.recording import synchronise
 
     left, right = recording.left, recording.right
     if left is None or right is None:

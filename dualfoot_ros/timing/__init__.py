@@ -3,16 +3,16 @@
 from .align import AlignReport, align, align_with_report
 from .aligner import Aligner
 from .clean import Clean, clean
-from .clock import DeviceClock
-from .clock_config import ClockModel
-from .clock_counter import Counter, Unwrapper
-from .clock_stamps import Stamping, Stamps
-from .clock_state import ClockState
+from .clock.config import ClockModel
+from .clock.counter import Counter, Unwrapper
+from .clock.device import DeviceClock
+from .clock.stamps import Stamping, Stamps
+from .clock.state import ClockState
 from .config import Sync
 from .errors import TimingError
-from .motion import offset_by_motion
-from .motion_offset import Offset
-from .motion_recording import Synchronised, synchronise
+from .offset.motion import offset_by_motion
+from .offset.recording import Synchronised, synchronise
+from .offset.result import Offset
 
 __all__ = [
     "AlignReport",

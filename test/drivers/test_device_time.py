@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 
 from dualfoot_ros.drivers import make_decoder
-from dualfoot_ros.timing.clock_counter import Counter, Unwrapper
+from dualfoot_ros.timing.clock.counter import Counter, Unwrapper
 
 from .frames import FORMATS, PERIOD_US, decoder_format, preamble, stream
 

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.series import FloatArray, ImuSeries
-from .errors import TimingError
-from .motion_correlation import STEP_S, Signal, signal_of
-from .motion_offset import Offset
+from ...core.series import FloatArray, ImuSeries
+from ..errors import TimingError
+from .correlation import STEP_S, Signal, signal_of
+from .result import Offset
 
 SMOOTH_S = 0.01
 WINDOW_S, HOP_S = 3.0, 1.0

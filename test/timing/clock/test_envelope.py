@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from dualfoot_ros.timing.clock_envelope import LowerEnvelope
+from dualfoot_ros.timing.clock.envelope import LowerEnvelope
 
-from .test_clock_line import cloud
+from .test_line import cloud
 
 
 def test_slow_arrivals_change_nothing():

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.series import IntArray
-from .clock import DeviceClock
-from .clock_config import ClockModel
-from .errors import TimingError
-from .motion_offset import Offset
+from ...core.series import IntArray
+from ..clock.config import ClockModel
+from ..clock.device import DeviceClock
+from ..errors import TimingError
+from .result import Offset
 
 BINS = 240
 GOOD_STD_S = 0.003  # uncertainty that is a confidence of one half

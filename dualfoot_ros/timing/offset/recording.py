@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..core.series import ImuSeries, IntArray
-from ..core.trajectory import FEET
-from .clock_fit import offset_by_arrival, tells_arrivals
-from .errors import TimingError
+from ...core.series import ImuSeries, IntArray
+from ...core.trajectory import FEET
+from ..errors import TimingError
+from .arrival import offset_by_arrival, tells_arrivals
+from .gait import offset_by_gait
 from .motion import METHODS as MOTION_METHODS
 from .motion import offset_by_motion
-from .motion_gait import offset_by_gait
-from .motion_offset import Offset
+from .result import Offset
 
 METHODS = (*MOTION_METHODS, "arrival")
 DOUBT = 0.5  # confidence below which the result is called doubtful

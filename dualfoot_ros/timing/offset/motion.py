@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from ..core.series import ImuSeries
-from .errors import TimingError
-from .motion_gait import offset_by_gait
-from .motion_offset import Offset
-from .motion_shake import find_shakes, offset_by_shake
+from ...core.series import ImuSeries
+from ..errors import TimingError
+from .gait import offset_by_gait
+from .result import Offset
+from .shake import find_shakes, offset_by_shake
 
 METHODS = ("auto", "motion", "shake")
 

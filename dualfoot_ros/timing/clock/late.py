@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .clock_suspects import Arrival
+from .suspects import Arrival
 
 
 class LateArrivals:

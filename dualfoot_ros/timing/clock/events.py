@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.series import FloatArray
-from .clock_envelope import LowerEnvelope
-from .clock_interval import NEAR_S, find_interval
+from ...core.series import FloatArray
+from .envelope import LowerEnvelope
+from .interval import NEAR_S, find_interval
 
 APART_S = 0.001  # samples that arrive closer together came in one notification
 NOTIFICATIONS = 65  # in which an interval is looked for

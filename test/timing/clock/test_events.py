@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dualfoot_ros.simulation.arrivals import BleLink, arrivals
-from dualfoot_ros.timing.clock_events import ConnectionEvents
+from dualfoot_ros.timing.clock.events import ConnectionEvents
 
 RATE = 100.0
 

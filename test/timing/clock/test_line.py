@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.timing.clock_line import EVENT_STD_S, FAILED, STEEPEST, below, between
+from dualfoot_ros.timing.clock.line import EVENT_STD_S, FAILED, STEEPEST, below, between
 
 INTERVAL = 0.04
 

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from .clock_config import ClockModel
-from .clock_envelope import LowerEnvelope
-from .clock_events import ConnectionEvents
-from .clock_late import LateArrivals
-from .clock_line import Line
-from .clock_settling import SURE, Settling
-from .clock_slew import SlewedTime
-from .clock_state import ClockState
-from .clock_suspects import Arrival, Suspects
+from .config import ClockModel
+from .envelope import LowerEnvelope
+from .events import ConnectionEvents
+from .late import LateArrivals
+from .line import Line
+from .settling import SURE, Settling
+from .slew import SlewedTime
+from .state import ClockState
+from .suspects import Arrival, Suspects
 
 COUNTERS = ("arrivals", "settling", "late", "early", "bad_skew", "restarts", "jumps")
 OLD_NS = 1_000_000_000  # a stamp that much before the newest is no late sample

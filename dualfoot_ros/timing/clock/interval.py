@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.series import FloatArray
+from ...core.series import FloatArray
 
 BoolArray = NDArray[np.bool_]
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from .clock_config import ClockModel
-from .clock_envelope import LowerEnvelope
-from .clock_line import Line
+from .config import ClockModel
+from .envelope import LowerEnvelope
+from .line import Line
 
 ARRIVALS = 30  # at different times: the fastest of so few bursts may still be a slow one
 SURE = 3.0  # standard deviations

@@ -16,10 +16,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..core.series import ImuSeries
-from .errors import TimingError
-from .motion_correlation import STEP_S, Correlation, Signal, correlate, signal_of
-from .motion_offset import Offset
+from ...core.series import ImuSeries
+from ..errors import TimingError
+from .correlation import STEP_S, Correlation, Signal, correlate, signal_of
+from .result import Offset
 
 CYCLE_S = (0.6, 2.5)  # gait cycles that are looked for
 LEAST_PEAK = 0.6  # correlation below which these are not two feet walking

@@ -2,8 +2,8 @@
 
 import pytest
 
-from dualfoot_ros.timing.clock_line import Line
-from dualfoot_ros.timing.clock_waits import EventWaits
+from dualfoot_ros.timing.clock.line import Line
+from dualfoot_ros.timing.clock.waits import EventWaits
 
 FLAT = Line(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 INTERVAL = 0.03

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..core.parameters import Parameters, parameter
-from ..core.trajectory import FEET
-from .clock import DeviceClock
-from .clock_config import ClockModel
-from .clock_state import ClockState
+from ...core.parameters import Parameters, parameter
+from ...core.trajectory import FEET
+from .config import ClockModel
+from .device import DeviceClock
+from .state import ClockState
 
 POLICIES = ("header", "device", "arrival")
 

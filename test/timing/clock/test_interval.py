@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dualfoot_ros.simulation.arrivals import BleLink, arrivals
-from dualfoot_ros.timing.clock_interval import find_interval, own_period
+from dualfoot_ros.timing.clock.interval import find_interval, own_period
 
 NOTIFICATIONS = 65
 

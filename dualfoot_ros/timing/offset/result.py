@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..core.series import ImuSeries, IntArray
+from ...core.series import ImuSeries, IntArray
 
 
 @dataclass(frozen=True)

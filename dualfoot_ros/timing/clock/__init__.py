@@ -1,0 +1,1 @@
+"""The clock of a device, followed on the host's clock from when its samples arrive."""

@@ -84,6 +84,8 @@ class ConnectionEvents:
         if period_s is None:
             return []
         self._begin(period_s, arrival_s)
+        if self._envelope.line is None:  # multiples of it, but nowhere near one lattice
+            return []
         for each in arrival_s.tolist():
             self._check(each)
         return [self._with_event(each) for each in self._recent] if self._known() else []

@@ -52,6 +52,26 @@ def test_nothing_comes_out_of_a_link_without_events():
     assert events.interval_s is None
 
 
+@settings(max_examples=30, deadline=None)
+@given(seed=st.integers(0, 10_000), slip=st.floats(0.0, 0.0006))
+def test_times_between_arrivals_that_are_multiples_need_be_no_events(seed, slip):
+    """A host that begins its period anew with every arrival: where the lattice is, slips."""
+    events, rng = ConnectionEvents(0.5, 240), np.random.default_rng(seed)
+    arrived = np.cumsum(0.02 * rng.integers(1, 4, 400) + rng.uniform(-slip, slip, 400) + slip / 2)
+    for k, each in enumerate(arrived.tolist()):
+        for found in events.add(0.1 * k, each):
+            assert found.arrival_s <= each + 0.02
+
+
+def test_events_that_jump_by_half_an_interval_in_the_middle_are_found_after_that():
+    events, interval = ConnectionEvents(0.5, 240), 0.03
+    number = np.cumsum(np.random.default_rng(0).integers(2, 5, 300))
+    arrived = interval * (number + 0.5 * (number > number[31]))
+    for k, each in enumerate(arrived.tolist()):
+        events.add(0.11 * k, each)
+    assert events.interval_s == pytest.approx(interval, rel=1e-6)
+
+
 def test_an_interval_that_changes_is_lost_and_the_new_one_found():
     events = ConnectionEvents(0.5, 240)
     feed(events, BleLink(interval=0.0451))

@@ -14,7 +14,12 @@ from rclpy.event_handler import (
 )
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import QoSProfile, qos_policy_name_from_kind
+from rclpy.qos import (
+    QoSCompatibility,
+    QoSProfile,
+    qos_check_compatible,
+    qos_policy_name_from_kind,
+)
 
 from ..options import Input as InputOptions
 from .diagnostics import ERROR, WARN, Status
@@ -62,15 +67,11 @@ class Input:
         self._number: int | None = None
         self.arrival_ns = 0
         self.last_s = self._free_s = time.monotonic()
-        self.incompatible = ""
-        self._node, self._callback = node, callback
+        self._node, self._callback, self._profile = node, callback, profile
         self._type_name = _type_name(message_type)
-        self._subscription = _with_events(
-            lambda events: node.create_subscription(
-                message_type, topic, self._receive, profile, event_callbacks=events
-            ),
-            SubscriptionEventCallbacks(incompatible_qos=self._on_incompatible),
-            SubscriptionEventCallbacks(),
+        silent = SubscriptionEventCallbacks(use_default_callbacks=False)  # `_fault` says it all
+        self._subscription = node.create_subscription(
+            message_type, topic, self._receive, profile, event_callbacks=silent
         )
 
     @property
@@ -96,9 +97,6 @@ class Input:
             return int(clock.now().nanoseconds)
         return received_ns
 
-    def _on_incompatible(self, event: Any) -> None:
-        self.incompatible = qos_policy_name_from_kind(event.last_policy_kind)
-
     def complaint(self, options: InputOptions) -> Complaint | None:
         """Return why nothing came for ``options.silence``, or None when something did."""
         now_s = time.monotonic()
@@ -115,20 +113,22 @@ class Input:
         return silence(who, begun, now_s - since_s, options)
 
     def _fault(self) -> str | None:
-        """Return why nothing can come, or None when something could."""
+        """Return why nothing can come, or None when something could.
+
+        Asked of the publishers that are there now: one that has gone is no fault of the next.
+        """
         publishers = self._node.get_publishers_info_by_topic(self.topic)
-        types = {p.topic_type for p in publishers} - {self._type_name}
         if not publishers:
             return f"topic '{self.topic}' has no publisher"
-        if types:
-            return (
-                f"topic '{self.topic}' is published as {', '.join(sorted(types))}; "
-                f"expected is {self._type_name}"
-            )
-        if self.incompatible:
+        typed = [p for p in publishers if p.topic_type == self._type_name]
+        if not typed:
+            types = ", ".join(sorted({p.topic_type for p in publishers}))
+            return f"topic '{self.topic}' is published as {types}; expected is {self._type_name}"
+        misfits = [_misfit(p.qos_profile, self._profile) for p in typed]
+        if None not in misfits:
             return (
                 f"topic '{self.topic}' has a publisher whose QoS does not fit "
-                f"({self.incompatible}), so nothing arrives"
+                f"({misfits[0]}), so nothing arrives"
             )
         return None
 
@@ -197,20 +197,22 @@ def watched_publisher(node: Node, message_type: Any, topic: str, profile: QoSPro
             f"({policy}) and receives nothing"
         )
 
-    publisher = _with_events(
-        lambda events: node.create_publisher(message_type, topic, profile, event_callbacks=events),
-        PublisherEventCallbacks(incompatible_qos=warn),
-        PublisherEventCallbacks(),
-    )
+    def create(events: PublisherEventCallbacks) -> Publisher:
+        return node.create_publisher(message_type, topic, profile, event_callbacks=events)
+
+    try:
+        publisher = create(PublisherEventCallbacks(incompatible_qos=warn))
+    except UnsupportedEventTypeError:
+        publisher = create(PublisherEventCallbacks())
     return publisher
 
 
-def _with_events(create: Callable[[Any], Any], wanted: Any, fallback: Any) -> Any:
-    """Create with event callbacks, or without where the middleware has no such events."""
-    try:
-        return create(wanted)
-    except UnsupportedEventTypeError:
-        return create(fallback)
+def _misfit(offered: QoSProfile, asked: QoSProfile) -> str | None:
+    """Return in words why a publisher does not fit, or None when it does."""
+    compatibility, reason = qos_check_compatible(offered, asked)
+    if compatibility != QoSCompatibility.ERROR:
+        return None
+    return str(reason).lower().replace("error: ", "").rstrip(";").replace(";", ", ")
 
 
 def _type_name(message_type: Any) -> str:

@@ -78,12 +78,28 @@ def test_a_first_sample_is_waited_for_from_when_its_publisher_is_there(bench):
     assert level(each) == ERROR and "no sample came for 100." in said(each)
 
 
-def test_a_publisher_whose_qos_does_not_fit_is_said_with_the_policy(bench):
-    reliable = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
-    each, _ = listening(bench, reliable)
+RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+
+
+def test_a_publisher_whose_qos_does_not_fit_is_said_with_what_it_lacks(bench):
+    each, _ = listening(bench, RELIABLE)
     bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
-    bench.until(lambda: "RELIABILITY" in said(each), "incompatible QoS")
-    assert "does not fit" in said(each)
+    bench.until(lambda: "QoS does not fit" in said(each), "incompatible QoS")
+    assert "(best effort publisher and reliable subscription)" in said(each)
+    assert level(each) == ERROR
+
+
+def test_a_publisher_that_fits_is_not_blamed_for_the_one_before_it(bench):
+    each, _ = listening(bench, RELIABLE)
+    node = bench.plain()
+    bad = node.create_publisher(Imu, "imu", qos.sensor(10))
+    bench.until(lambda: "QoS does not fit" in said(each), "incompatible QoS")
+    node.create_publisher(Imu, "imu", RELIABLE)  # the one that was killed may linger
+    bench.until(lambda: "2 publisher(s) but no sample yet" in said(each), "a publisher that fits")
+    assert level(each) == WARN
+    node.destroy_publisher(bad)
+    bench.until(lambda: "1 publisher(s) but no sample yet" in said(each), "the bad one to go")
+    assert level(each) == WARN
 
 
 def test_a_topic_of_another_type_is_said(bench):
@@ -127,8 +143,7 @@ def test_samples_that_a_full_queue_drops_are_counted(bench):
 def test_a_subscriber_that_asks_for_more_than_is_offered_is_warned_about(bench, program):
     arguments = ["-p", "source:=topic:///sensor", "-r", "__ns:=/left"]
     adapter = program("imu_adapter", "--ros-args", *arguments)
-    reliable = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
-    bench.plain().create_subscription(Imu, "/left/imu/data_raw", lambda _: None, reliable)
+    bench.plain().create_subscription(Imu, "/left/imu/data_raw", lambda _: None, RELIABLE)
     said = "a subscriber of '/left/imu/data_raw' asks for a QoS that is not offered (RELIABILITY)"
     bench.until(lambda: said in adapter.output, "the warning")
 

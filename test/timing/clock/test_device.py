@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from dualfoot_ros.simulation.arrivals import BleLink, arrivals
 from dualfoot_ros.timing import ClockModel, DeviceClock
+from dualfoot_ros.timing.clock.state import PHASES
 
 START = 1_750_000_000_000_000_000
 SECOND = 1_000_000_000
@@ -271,3 +272,41 @@ def test_no_stamps_raise(pairs):
     clock = DeviceClock()
     for device, arrived in pairs:
         assert clock.update(device, arrived) is None or clock.state.phase != "empty"
+
+
+@settings(max_examples=12, deadline=None)
+@given(
+    link=st.builds(
+        BleLink,
+        interval=st.floats(0.0075, 0.06),
+        burst=st.integers(1, 20),
+        failure=st.floats(0.0, 0.5),
+    ),
+    damage=st.lists(
+        st.tuples(
+            st.booleans(),
+            st.sampled_from(["shift from", "shift", "freeze", "shuffle"]),
+            st.integers(0, 2900),
+            st.integers(1, 200),
+            st.integers(-(10**11), 10**11),
+        ),
+        max_size=5,
+    ),
+    seed=st.integers(0, 10_000),
+)
+def test_no_damage_to_stamps_or_arrivals_raises(link, damage, seed):
+    _, *times = recording(300.0, duration=30.0, link=link, seed=seed)
+    rng = np.random.default_rng(seed)
+    for of_arrivals, what, begin, count, shift in damage:
+        some = times[of_arrivals][begin : None if what == "shift from" else begin + count]
+        if what == "shuffle":
+            rng.shuffle(some)
+        elif what == "freeze":
+            some[:] = some[0]
+        else:
+            some += shift
+    clock = DeviceClock()
+    follow(clock, *times)
+    state = clock.state
+    assert state.phase in PHASES[1:]
+    assert np.isfinite([state.offset_ns, state.offset_std_s, state.skew_ppm]).all()

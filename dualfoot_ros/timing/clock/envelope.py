@@ -89,12 +89,13 @@ class LowerEnvelope:
 
     def _fit(self) -> None:
         points = np.array(self._fastest)
-        self.scale_s = self._scale(points, below(points, self.scale_s, self._prior))
-        self.line = below(points, self.scale_s, self._prior)
-        waits = self._waits
+        line, waits = below(points, self.scale_s, self._prior), self._waits
+        self.scale_s = self._scale(points, line)
         if len(waits):
             points = np.concatenate([points, waits.least])
-            self.line = between(points, waits.longest, waits.interval_s, self.line, self._prior)
+            self.line = between(points, waits.longest, waits.interval_s, line, self._prior)
+        else:
+            self.line = below(points, self.scale_s, self._prior)
 
     def _scale(self, points: FloatArray, line: Line) -> float:
         """Return the mean delay of the points (n, 2) above the line; stalled ones do not count."""

@@ -5,7 +5,9 @@
 Devices on links of several kinds are switched on.  A row has the time from the first sample to the
 first one that is stamped, and the errors of the second that begins there, against true time plus
 the least delay of the link; last, for comparison, those of the second that begins with the very
-first sample, had its samples not been withheld.
+first sample, had its samples not been withheld.  The second table has clocks just beyond the skew
+that is allowed: how many of them are stamped for a while, how long, and whether all are refused
+after a minute.
 """
 
 from __future__ import annotations
@@ -17,12 +19,14 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from dualfoot_ros.core.series import FloatArray
+from dualfoot_ros.core.series import FloatArray, IntArray
 from dualfoot_ros.simulation.arrivals import BleLink, arrivals
-from dualfoot_ros.timing import DeviceClock
+from dualfoot_ros.timing import ClockModel, DeviceClock
 
 START = 1_750_000_000_000_000_000
 DURATION_S = 12.0
+BEYOND = (1.02, 1.05, 1.1, 1.15, 1.2)  # times the skew that is allowed
+MINUTE_S = 60.0
 Delays = Callable[[FloatArray, np.random.Generator], FloatArray]
 
 
@@ -70,21 +74,28 @@ LINKS: dict[str, Delays] = {
 }
 
 
+def device_on(
+    delays: Delays, skew_ppm: float, duration_s: float, rng: np.random.Generator
+) -> tuple[FloatArray, IntArray, IntArray]:
+    """Return elapsed time (N,) s, device stamps and arrivals (N,) ns, at a random rate."""
+    rate = float(rng.choice([60.0, 100.0, 120.0, 200.0]))
+    elapsed = np.arange(round(duration_s * rate)) / rate
+    device = np.round(1e9 * (3600.0 + elapsed * (1.0 + 1e-6 * skew_ppm))).astype(np.int64)
+    late = np.maximum.accumulate(elapsed + delays(elapsed, rng))
+    return elapsed, device, START + np.round(1e9 * late).astype(np.int64)
+
+
 def one_run(delays: Delays, skew_ppm: float, seed: int) -> tuple[float, FloatArray, FloatArray]:
     """Return when stamps begin (s), and the errors (ms) of that second and of the first one."""
     rng = np.random.default_rng(seed)
-    rate = float(rng.choice([60.0, 100.0, 120.0, 200.0]))
-    skew = 1e-6 * skew_ppm * rng.uniform(-1.0, 1.0)
-    elapsed = np.arange(round(DURATION_S * rate)) / rate
-    device = np.round(1e9 * (3600.0 + elapsed * (1.0 + skew))).astype(np.int64)
-    late = np.maximum.accumulate(elapsed + delays(elapsed, rng))
-    arrived = START + np.round(1e9 * late).astype(np.int64)
+    skew_ppm *= rng.uniform(-1.0, 1.0)
+    elapsed, device, arrived = device_on(delays, skew_ppm, DURATION_S, rng)
     clock, used, all_of_them = DeviceClock(), [], []
     for device_ns, arrival_ns in zip(device.tolist(), arrived.tolist(), strict=True):
         used.append(clock.update(device_ns, arrival_ns) is not None)
         all_of_them.append(clock.translate(device_ns))
     error = 1e3 * (1e-9 * (np.array(all_of_them) - START) - elapsed)
-    first, second = int(np.argmax(used)), round(rate)
+    first, second = int(np.argmax(used)), round(1.0 / elapsed[1])
     begins = float(elapsed[first]) if any(used) else float("inf")
     return begins, error[first : first + second], error[:second]
 
@@ -105,6 +116,30 @@ def start_table(runs: int, skew_ppm: float, seed: int) -> Table:
     return table
 
 
+def limit_table(runs: int, seed: int) -> Table:
+    """Return the table of clocks whose skew is just beyond what is allowed, on all links."""
+    table = Table(title="clocks beyond the limit of the skew")
+    for column in ("skew ppm", "clocks", "stamped", "s, median", "longest", "refused at the end"):
+        table.add_column(column)
+    for times in BEYOND:
+        stamped, refused = [], 0
+        for number, delays in enumerate(LINKS.values()):
+            for k in range(runs):
+                rng = np.random.default_rng([number, seed + k])
+                skew_ppm = times * ClockModel().max_skew * rng.choice([-1.0, 1.0])
+                elapsed, device, arrived = device_on(delays, skew_ppm, MINUTE_S, rng)
+                clock = DeviceClock()
+                pairs = zip(device.tolist(), arrived.tolist(), strict=True)
+                used = sum(clock.update(*pair) is not None for pair in pairs)
+                stamped += [used * elapsed[1]] if used else []
+                refused += clock.state.phase == "refused"
+        figures = [f"{np.median(stamped):.0f}", f"{max(stamped):.0f}"] if stamped else ["", ""]
+        clocks = runs * len(LINKS)
+        row = [f"+-{times * ClockModel().max_skew:.0f}", str(clocks), str(len(stamped))]
+        table.add_row(*row, *figures, f"{refused} of {clocks}")
+    return table
+
+
 def _sizes(errors: tuple[FloatArray, ...]) -> tuple[float, FloatArray]:
     """Return the rms over all runs and the largest error of each."""
     rms = float(np.sqrt(np.mean([np.mean(each**2) for each in errors])))
@@ -112,13 +147,15 @@ def _sizes(errors: tuple[FloatArray, ...]) -> tuple[float, FloatArray]:
 
 
 def main() -> None:
-    """Print the table."""
+    """Print both tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--runs", type=int, default=60, help="devices a row")
+    parser.add_argument("--runs", type=int, default=60, help="devices a link")
     parser.add_argument("--skew", type=float, default=100.0, help="largest skew, ppm")
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
-    Console(width=140).print(start_table(args.runs, args.skew, args.seed))
+    console = Console(width=140)
+    console.print(start_table(args.runs, args.skew, args.seed))
+    console.print(limit_table(max(args.runs // 5, 1), args.seed))
 
 
 if __name__ == "__main__":

@@ -20,6 +20,8 @@ STOP_S = 15.0  # the longest a transport may take to give up what it is doing
 class State(enum.Enum):
     """Where a reader stands."""
 
+    CONNECTING = "connecting"
+    """The link is tried for the first time."""
     WAITING = "waiting"
     """The link is not there; it is tried again and again."""
     CONNECTED = "connected"
@@ -89,9 +91,10 @@ class Reader:
 
     def _run(self) -> None:
         try:
+            self._enter(State.CONNECTING, "")
             while self._session() and not self.stopping.wait(self._wait_s):
                 self._wait_s = min(FACTOR * self._wait_s, self._backoff.retry_max)
-            if self.state in (State.WAITING, State.CONNECTED):
+            if self.state in (State.CONNECTING, State.WAITING, State.CONNECTED):
                 self._enter(State.STOPPED, "")
         except Exception as error:
             self._fail(error)

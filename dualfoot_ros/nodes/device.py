@@ -157,11 +157,11 @@ class Device:
         if state in (State.WAITING, State.FAILED):
             return Complaint(ERROR, f"source '{uri}' is {state.value}: {reason}")
         silent_s = time.monotonic() - self._last_s
-        if state is not State.CONNECTED or silent_s < self._options.silence:
+        if state not in (State.CONNECTING, State.CONNECTED) or silent_s < self._options.silence:
             return None
         decoder = self.source.decoder.counters
         if decoder["samples"] or not decoder["bytes"]:
-            who = f"source '{uri}' is connected"
+            who = f"source '{uri}' is {state.value}"
             return silence(who, decoder["samples"] > 0, silent_s, self._options)
         return Complaint(
             ERROR,

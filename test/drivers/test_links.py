@@ -81,8 +81,8 @@ def test_two_sources_cannot_read_one_port(device):
     first, second = Collector(), Collector()
     uri = f"serial://{device.path}?format=mcu&{QUICK}"
     with open_source(uri, first), open_source(uri, second):
-        assert first.wait_for(lambda c: c.states) and second.wait_for(lambda c: c.states)
-        states = {first.states[0][0], second.states[0][0]}
+        assert first.wait_for(lambda c: c.states[1:]) and second.wait_for(lambda c: c.states[1:])
+        states = {first.states[1][0], second.states[1][0]}
     assert states == {State.CONNECTED, State.WAITING}
 
 

@@ -109,6 +109,7 @@ def test_a_transport_is_closed_after_every_try_also_a_vain_one():
 def test_a_reason_is_said_once_as_long_as_it_stays_the_same():
     _, _, said = run(Script(["absent"], ["absent"], ["busy"], [b"x", OSError("gone")]))
     assert said == [
+        (State.CONNECTING, ""),
         (State.WAITING, "absent"),
         (State.WAITING, "busy"),
         (State.CONNECTED, ""),

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from sensor_msgs.msg import Imu
 
 from dualfoot_ros.drivers import SourceError, State
 from dualfoot_ros.drivers.file import FileTransport
+from dualfoot_ros.drivers.serial_port import SerialTransport
 from dualfoot_ros.nodes import qos
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.messages import imu_values, to_ns
@@ -264,6 +266,26 @@ def test_a_link_without_a_byte_so_far_is_a_warning_at_first_and_then_an_error(be
     assert levels == sorted(levels) and DiagnosticStatus.WARN in levels
     device.send(frames.stream("mcu", 20))
     bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "was silent for"), "silence")
+    device.unplug()
+
+
+def test_a_link_that_takes_its_time_is_said_to_be_connecting(bench, tmp_path, monkeypatch):
+    """As over Bluetooth, where the first try takes up to 10 s."""
+    device, reached = PluggedDevice(tmp_path / "ttyUSB0"), threading.Event()
+    device.plug()
+    opened = SerialTransport.open
+    monkeypatch.setattr(SerialTransport, "open", lambda self: reached.wait(60) and opened(self))
+    values = {"input.silence": 0.5, "input.first": 2.0, "stamp": "header"}
+    adapter = Adapter(bench, f"serial://{device.path}?format=mcu", **values)
+    said = "is connecting but no sample yet"
+    bench.until(lambda: adapter.says(DiagnosticStatus.WARN, said), "a warning")
+    assert status_values(adapter.reports[-1])["link"] == "connecting"
+    said = "is connecting but no sample came for"
+    bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, said), "an error")
+    reached.set()
+    bench.until(lambda: adapter.node.device.source.state is State.CONNECTED, "the port")
+    device.send(frames.stream("mcu", 20))
+    bench.until(lambda: adapter.says(DiagnosticStatus.OK, ""), "samples")
     device.unplug()
 
 

@@ -24,9 +24,16 @@ class Sync(Parameters):
         "foot whose samples stay as they are when the rate is 0; the other is interpolated",
         choices=("left", "right"),
     )
+    between: str = parameter(
+        "interpolate",
+        "value between two samples: on the line through both (as in the papers), or the earlier "
+        "one held",
+        choices=("interpolate", "hold"),
+    )
     max_gap: float = parameter(
         0.05,
-        "longest interval between two samples that is interpolated across",
+        "longest interval between two samples that is interpolated or held across; in a longer "
+        "one pairs are dropped and counted",
         unit="s",
         minimum=0.001,
         maximum=1.0,
@@ -57,6 +64,11 @@ class Sync(Parameters):
                 f"parameter 'max_delay' is {self.max_delay}; allowed is at least 'max_gap', "
                 f"{self.max_gap} s"
             )
+
+    @property
+    def holds(self) -> bool:
+        """Whether the earlier sample is held rather than interpolated."""
+        return self.between == "hold"
 
     @property
     def max_gap_ns(self) -> int:

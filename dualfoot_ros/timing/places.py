@@ -23,7 +23,7 @@ class Places:
         ``exact``, ``before`` is the sample that is taken
     weight : (N,) share of ``after`` in the value
     exact : (N,) a sample is within the tolerance and taken as it is
-    between : (N,) interpolated
+    between : (N,) interpolated, or the earlier one held
     outside : (N,) before the first or after the last sample
     """
 
@@ -46,7 +46,8 @@ class Places:
         exact = on_low | on_high
         width = stamps[high] - stamps[low]
         between = inside & ~exact & (width <= config.max_gap_ns)
-        weight = (grid - stamps[low]) / np.where(between, width, 1)
+        since = np.zeros(len(grid)) if config.holds else grid - stamps[low]
+        weight = since / np.where(between, width, 1)
         taken = np.where(on_high & ~on_low, high, low)
         return cls(taken, high, weight, exact, between, ~inside & ~exact)
 

@@ -26,7 +26,7 @@ class Track:
     """The recent samples of one foot, and its value at a time in between."""
 
     def __init__(self, config: Sync) -> None:
-        self._gap_ns = config.max_gap_ns
+        self._gap_ns, self._holds = config.max_gap_ns, config.holds
         self._tolerance_ns = config.tolerance_ns
         self._keep_ns = config.max_delay_ns
         self.samples: deque[tuple[int, FloatArray]] = deque()
@@ -68,5 +68,5 @@ class Track:
             return Found(after)
         if after_ns - before_ns > self._gap_ns:
             return Found(None, "in_gap", after_ns - self._tolerance_ns)
-        weight = (stamp_ns - before_ns) / (after_ns - before_ns)
+        weight = 0.0 if self._holds else (stamp_ns - before_ns) / (after_ns - before_ns)
         return Found(before + (after - before) * weight, "interpolated")

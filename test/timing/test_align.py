@@ -120,6 +120,15 @@ def test_duplicates_disorder_and_values_that_are_not_finite_are_counted_and_left
     assert counters["right_accepted"] == 50
 
 
+@given(intervals, intervals, starts)
+def test_held_values_are_those_of_the_last_sample_before(a, b, start):
+    left, right = series(np.cumsum(a)), series(start + np.cumsum(b))
+    held = align(left, right, Sync(between="hold", tolerance=0.0))[1]
+    last = np.searchsorted(right.stamp_ns, held.stamp_ns, side="right") - 1
+    assert np.array_equal(held.specific_force, right.specific_force[last])
+    assert np.array_equal(held.angular_rate, right.angular_rate[last])
+
+
 def test_a_gap_is_counted_and_its_stamps_are_dropped():
     left = series(np.arange(100) * 10 * MS)
     right = left[np.r_[0:40, 60:100]]

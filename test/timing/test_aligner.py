@@ -48,12 +48,15 @@ def stream(config, samples):
     intervals,
     rates,
     st.sampled_from(["left", "right"]),
+    st.sampled_from(["interpolate", "hold"]),
     st.integers(0, 150 * MS),
     st.integers(0, 2**31),
 )
-def test_streaming_and_batch_give_the_same_pairs_to_the_bit(a, b, rate, reference, late, seed):
+def test_streaming_and_batch_give_the_same_pairs_to_the_bit(
+    a, b, rate, reference, between, late, seed
+):
     left, right = noisy(np.cumsum(a) + 10**9, seed), noisy(np.cumsum(b) + 10**9, seed + 1)
-    config = Sync(rate=rate, reference=reference, restart_after=1000)
+    config = Sync(rate=rate, reference=reference, between=between, restart_after=1000)
     aligner, pairs = stream(config, arrivals(left, right, {"right": late}))
     batch_left, batch_right, report = align_with_report(left, right, config)
     assert [p.stamp_ns for p in pairs] == batch_left.stamp_ns.tolist()

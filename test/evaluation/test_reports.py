@@ -16,7 +16,7 @@ from dualfoot_ros.evaluation import Align, EvaluationError, Options, demo_report
 from dualfoot_ros.evaluation.notes import marker_notes, refusal_notes
 from dualfoot_ros.evaluation.output import staged
 from dualfoot_ros.evaluation.plain import plain
-from dualfoot_ros.evaluation.plots import draw_all
+from dualfoot_ros.evaluation.plots import draw_all, tracks
 from dualfoot_ros.evaluation.plots.errors import _standing
 from dualfoot_ros.evaluation.table import walk_table
 from dualfoot_ros.evaluation.tum import write_tracks
@@ -77,6 +77,23 @@ def test_markers_have_a_figure_and_a_walk_of_many_stances_is_drawn_too(tmp_path)
     markers = Reference("made by formula", {"right": np.column_stack([side, np.zeros(300)])})
     paths = draw_all({"zupt": evaluate(track, reference=markers)}, tmp_path, "a walk")
     assert paths[-1].name == "marker_errors.png"
+
+
+def test_the_legend_of_a_narrow_walk_is_not_cut_off(tmp_path, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(tracks, "save", lambda figure, path: drawn.append(figure))
+    points = np.column_stack([np.zeros(40), np.arange(40) * 1.2])
+    track, _ = perfect(points)
+    side = points + np.array([0.1, 0.0])
+    markers = Reference("made by formula", {"right": np.column_stack([side, np.zeros(40)])})
+    tracks.draw_tracks({"zupt": evaluate(track, reference=markers)}, tmp_path / "x", "a walk")
+    (figure,) = drawn
+    figure.draw_without_rendering()
+    (legend,) = figure.legends
+    extent = legend.get_window_extent()
+    assert len(legend.texts) == 5
+    assert extent.x0 >= 0.0
+    assert extent.x1 <= figure.bbox.width
 
 
 def test_drawing_leaves_no_global_state_of_pyplot(tmp_path):

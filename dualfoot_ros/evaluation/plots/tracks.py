@@ -15,6 +15,9 @@ from .style import FOOT, MARKER, TRUTH, new_figure, save
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+LABEL_IN = 1.5
+"""Width of a label of the legend in the mean, inches."""
+
 MOST_DOTS = 80
 """Stances are dotted on walks of no more than this many."""
 
@@ -31,7 +34,10 @@ def draw_tracks(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
         axis.set_xlabel("x (m)")
     axes[0, 0].set_ylabel("y (m)")
     handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=6, fontsize=8, frameon=False)
+    columns = max(2, int(figure.get_figwidth() / LABEL_IN))
+    figure.legend(
+        handles, labels, loc="outside lower center", ncols=columns, fontsize=8, frameon=False
+    )
     figure.suptitle(f"{title}: both feet from above", fontsize=11)
     return save(figure, path)
 

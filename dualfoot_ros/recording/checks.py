@@ -180,9 +180,8 @@ def _together(left: Quality, right: Quality) -> Iterator[Finding]:
             "no_overlap",
             f"left and right do not overlap in time (left {left.start_s:.3f} to {left.end_s:.3f} "
             f"s, right {right.start_s:.3f} to {right.end_s:.3f} s), so the clocks of the devices "
-            "were not synchronised; synchronise them and record again, or shift the right foot "
-            "with 'dualfoot import SOURCE --right-offset SECONDS' "
-            f"({left.start_s - right.start_s:.3f} if both were started at the same moment)",
+            "were not synchronised: 'dualfoot sync BAG -o ALIGNED' finds the offset from how the "
+            "feet moved, and 'dualfoot import SOURCE --right-offset SECONDS' takes a known one",
         )
     ratio = left.rate_hz / right.rate_hz
     if np.isfinite(ratio) and not 1 / RATE_RATIO < ratio < RATE_RATIO:

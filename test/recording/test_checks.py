@@ -50,7 +50,7 @@ BAD = [
     (
         of(right=moving(2, start_ns=10**18 + 10**11)),
         "no_overlap",
-        "do not overlap.*--right-offset",
+        "do not overlap.*dualfoot sync.*--right-offset",
     ),
 ]
 

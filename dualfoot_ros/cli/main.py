@@ -1,4 +1,7 @@
-"""Entry of the ``dualfoot`` command: find the verb, run it, turn errors into sentences."""
+"""Entry of the ``dualfoot`` command: find the verb, run it, turn errors into sentences.
+
+Nothing of the library is imported before an interrupt can be turned into one, too.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,6 @@ from collections.abc import Sequence
 from typing import Protocol, cast
 
 from .. import __version__
-from ..core.errors import DualFootError
 
 VERBS = {
     "import": "import_",
@@ -84,8 +86,8 @@ def parser_of(name: str) -> argparse.ArgumentParser:
 
 
 def _run(name: str, arguments: list[str]) -> int:
-    args = parser_of(name).parse_args(arguments)
     try:
+        args = parser_of(name).parse_args(arguments)
         code = load(name).run(args)
         sys.stdout.flush()
     except KeyboardInterrupt:
@@ -95,14 +97,24 @@ def _run(name: str, arguments: list[str]) -> int:
         # The reader of our output is gone; keep the interpreter from flushing into it again.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return EXIT_BROKEN_PIPE
-    except DualFootError as error:
-        return _refuse(name, str(error))
-    except OSError as error:
-        if error.strerror is None:
+    except Exception as error:
+        sentence = _sentence(error)
+        if sentence is None:
             raise
-        where = f"'{error.filename}': " if error.filename else ""
-        return _refuse(name, f"{where}{error.strerror}")
+        return _refuse(name, sentence)
     return code
+
+
+def _sentence(error: Exception) -> str | None:
+    """Return what to tell the user of an error; None when it is a fault of the program."""
+    from ..core.errors import DualFootError
+
+    if isinstance(error, DualFootError):
+        return str(error)
+    if isinstance(error, OSError) and error.strerror is not None:
+        where = f"'{error.filename}': " if error.filename else ""
+        return f"{where}{error.strerror}"
+    return None
 
 
 def _refuse(name: str, sentence: str) -> int:

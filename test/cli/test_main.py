@@ -152,3 +152,11 @@ def test_an_interrupted_process_leaves_no_traceback():
     _, error = process.communicate(timeout=60)
     assert process.returncode == 130
     assert error == b"dualfoot info: interrupted\n"
+
+
+def test_an_interrupt_while_the_library_is_imported_ends_with_130_too(monkeypatch, capsys):
+    monkeypatch.setattr(command, "load", lambda name: fail(KeyboardInterrupt())())
+    assert main(["info"]) == 130
+    assert capsys.readouterr().err == "dualfoot info: interrupted\n"
+    script = "import sys, dualfoot_ros.cli.main; sys.exit('numpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0

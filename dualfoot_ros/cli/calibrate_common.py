@@ -73,8 +73,12 @@ def load(args: argparse.Namespace) -> dict[str, list[tuple[str, ImuSeries]]]:
 def existing(path: Path | None) -> Calibration:
     """Return what a calibration file to be written holds already; refuse any other file."""
     from ..calibration import Calibration
+    from ..recording.atomic import check_file
 
-    return Calibration.load(path) if path is not None and path.exists() else Calibration()
+    if path is None or not path.exists():
+        return Calibration()
+    check_file(path, overwrite=True)  # a device could be read without end
+    return Calibration.load(path)
 
 
 def figure_path(output: Path, what: str, sensors: Sequence[str] = ()) -> Path:

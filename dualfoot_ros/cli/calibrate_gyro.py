@@ -38,12 +38,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE.yaml",
         help="write the noise parameters of the filter that the standstill tells",
     )
+    parser.add_argument(
+        "--overwrite", action="store_true", help="replace an existing file of --parameters"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
     """Fit, write, print; return the exit code."""
     from ..calibration.gyro import fit_gyro
 
+    _check_outputs(args)
     calibration = common.existing(args.output)
     found = {name: fit_gyro(sources) for name, sources in common.load(args).items()}
     noise = _noise(found)
@@ -64,6 +68,21 @@ def run(args: argparse.Namespace) -> int:
         for sentence in fit.unseen():
             common.warn(f"{name}: {sentence}")
     return 0
+
+
+def _check_outputs(args: argparse.Namespace) -> None:
+    """Refuse a parameter file that would replace something else."""
+    from ..calibration import CalibrationError
+    from ..recording.atomic import check_file
+
+    if args.parameters is None:
+        return
+    if args.output is not None and args.parameters.resolve() == args.output.resolve():
+        raise CalibrationError(
+            f"-o and --parameters both name '{args.parameters}'; a calibration and parameters of "
+            "the filter are two files, so choose another name for one of them"
+        )
+    check_file(args.parameters, overwrite=args.overwrite)
 
 
 def _noise(found: dict[str, GyroFit]) -> dict[str, float]:

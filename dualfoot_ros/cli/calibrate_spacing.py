@@ -59,11 +59,10 @@ def run(args: argparse.Namespace) -> int:
     from ..calibration.spacing import fit_spacing
     from ..evaluation import track
     from ..presets import load_config
+    from ..recording.atomic import check_file
 
-    if args.output is not None and args.output.exists() and not args.overwrite:
-        raise CalibrationError(
-            f"'{args.output}' exists already; choose another output or give --overwrite"
-        )
+    if args.output is not None:
+        check_file(args.output, overwrite=args.overwrite)
     overrides = {**dict(setting(text) for text in args.set), "method": "zupt"}
     config = load_config(args.config, overrides)
     fit = fit_spacing(track(load_usable(args.bag, args), config), config)

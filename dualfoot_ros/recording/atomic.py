@@ -13,14 +13,37 @@ from .errors import RecordingError
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write ``text`` to ``path`` in one step; an existing file is replaced."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    scratch = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
-        scratch.write_text(text, encoding="utf-8")
-        scratch.replace(path)
-    finally:
-        scratch.unlink(missing_ok=True)
+    """Write ``text`` to ``path`` in one step; an existing file is replaced.
+
+    Raises
+    ------
+    RecordingError
+        When ``path`` is there and is no file (a folder, a device).
+    OSError
+        When it cannot be written; names ``path``.
+    """
+    check_file(path, overwrite=True)
+    with _naming(path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        scratch = path.with_name(f".{path.name}.{os.getpid()}.partial")
+        try:
+            scratch.write_text(text, encoding="utf-8")
+            scratch.replace(path)
+        finally:
+            scratch.unlink(missing_ok=True)
+
+
+def check_file(path: Path, *, overwrite: bool = False) -> None:
+    """Raise :class:`RecordingError` when ``path`` is there and no file, or not to be replaced."""
+    if not os.path.lexists(path):
+        return
+    if not path.is_file():
+        raise RecordingError(
+            f"'{path}' is there and is no ordinary file, so it is not replaced; choose another "
+            "output"
+        )
+    if not overwrite:
+        raise RecordingError(f"'{path}' exists already; choose another output or give --overwrite")
 
 
 @contextmanager
@@ -34,10 +57,14 @@ def new_directory(path: Path, *, overwrite: bool = False, marker: str = "") -> I
     ------
     RecordingError
         When ``path`` exists and may not be replaced.
+    OSError
+        When no folder can be made there; names ``path``.
     """
     check_target(path, overwrite=overwrite, marker=marker)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    scratch = Path(tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".partial", dir=path.parent))
+    with _naming(path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        made = tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".partial", dir=path.parent)
+    scratch = Path(made)
     try:
         yield scratch / path.name
         if path.exists():
@@ -60,3 +87,14 @@ def check_target(path: Path, *, overwrite: bool = False, marker: str = "") -> No
             f"'{path}' is not something this program wrote, so it is not replaced; "
             "choose another output"
         )
+
+
+@contextmanager
+def _naming(path: Path) -> Iterator[None]:
+    """Let an OSError name ``path``, as it was given, and not what is in between."""
+    try:
+        yield
+    except OSError as error:
+        above = next((p for p in path.parents if os.path.lexists(p)), path.parent)
+        reason = error.strerror if above.is_dir() else f"'{above}' is no folder"
+        raise OSError(error.errno, f"it cannot be written: {reason}", str(path)) from None

@@ -1,6 +1,7 @@
 """``dualfoot calibrate`` as a user meets it."""
 
 import json
+import os
 
 import numpy as np
 import pytest
@@ -182,6 +183,33 @@ def test_no_other_file_is_overwritten(six, bags, tmp_path, capsys):
     assert main(["calibrate", "spacing", bags["eight"], "-o", str(mine)]) == 2
     assert "exists already" in capsys.readouterr().err
     assert mine.read_text() == "mine: true\n"
+
+
+def test_parameters_replace_a_file_only_when_told_to_and_nothing_but_a_file(six, tmp_path, capsys):
+    mine, pipe, output = tmp_path / "mine.yaml", tmp_path / "pipe", tmp_path / "gyro.yaml"
+    mine.write_text("mine: true\n")
+    os.mkfifo(pipe)
+    command = ["calibrate", "gyro", six[0], "--no-plots", "-o", str(output), "--parameters"]
+    assert main([*command, str(mine)]) == 2
+    assert f"'{mine}' exists already" in capsys.readouterr().err
+    assert mine.read_text() == "mine: true\n"
+    for given in ([], ["--overwrite"]):
+        assert main([*command, str(pipe), *given]) == 2
+        assert f"'{pipe}' is there and is no ordinary file" in capsys.readouterr().err
+    assert pipe.is_fifo()
+    assert main([*command, str(tmp_path / "x" / ".." / "gyro.yaml")]) == 2
+    assert "-o and --parameters both name" in capsys.readouterr().err
+    assert not output.exists()
+    assert main([*command, str(mine), "--overwrite"]) == 0
+    assert "ros__parameters" in mine.read_text()
+
+
+def test_an_output_that_cannot_be_written_is_named_as_it_was_given(six, tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    target = str(tmp_path / "file" / "x")
+    assert main(["calibrate", "gyro", six[0], "-o", target]) == 2
+    reason = f"'{target}': it cannot be written: '{tmp_path / 'file'}' is no folder"
+    assert reason in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("what", ["accelerometer", "gyro", "spacing"])

@@ -19,6 +19,7 @@ from ..options import Input as InputOptions
 from ..options import Path as PathOptions
 from ..timing import Aligner, ClockModel, Stamping, Sync
 from . import qos
+from .apart import Apart
 from .diagnostics import Reporter
 from .health import Health
 from .magnetic import FieldInputs
@@ -31,6 +32,7 @@ from .stamper import Stamper
 from .suspicion import UnitSuspicion
 from .watch import Input, Watch, Watched
 
+NO_PAIRS = "; whoever makes the pairs, as time_sync does, says in /diagnostics why there are none"
 PROGRAM = Program(
     "fusion",
     "Track both feet: left|right/imu/data_raw (or data_sync) in; left|right/odometry,\n"
@@ -66,6 +68,7 @@ class FusionNode(Node):
         config = TrackerConfig.from_mapping(tracker)
         self.tracker = DualFootTracker(config, engine=own.engine)
         self.aligner = Aligner(group(Sync, values, "aligner."))
+        self.apart = Apart(self.aligner)
         self._stamping = _stamping(own.sync, values)
         self.stamper = Stamper(self._stamping, group(ClockModel, values, "clock."))
         path = group(PathOptions, values, "path.")
@@ -80,11 +83,12 @@ class FusionNode(Node):
     def _listen(self, options: InputOptions, sync: str) -> None:
         topic = "imu/data_raw" if sync == "internal" else "imu/data_sync"
         profile = qos.sensor(options.depth)
+        hint = NO_PAIRS if sync == "external" else ""
         self.suspicions = {
             foot: UnitSuspicion(f"the {foot} foot", self.get_logger().warning) for foot in FEET
         }
         self.inputs = {
-            foot: Input(self, Imu, f"{foot}/{topic}", self._receiver(foot), profile)
+            foot: Input(self, Imu, f"{foot}/{topic}", self._receiver(foot), profile, hint)
             for foot in FEET
         }
         self.pressure: PressureInputs | None = None
@@ -120,6 +124,7 @@ class FusionNode(Node):
             if calibration is not None:
                 values = calibration.values(values)
             self.suspicions[foot].look(values.tolist())
+            self.apart.see(foot, stamp_ns)
             for pair in self.aligner.push(foot, stamp_ns, values):
                 self._track(pair)
 

@@ -71,6 +71,7 @@ class Health:
         """Fill in a report."""
         self._node.watch.describe(status)
         self._node.stamper.describe(status)
+        self._node.apart.describe(status)
         for suspicion in self._node.suspicions.values():
             for sentence in suspicion.said:
                 status.note(WARN, sentence)
@@ -122,5 +123,5 @@ class Health:
 
 
 def _is_refusal(name: str) -> bool:
-    words = ("not_finite", "out_of_range", "out_of_order", "far_ahead", "late")
+    words = ("not_finite", "out_of_range", "out_of_order", "far_ahead")
     return name.endswith(words)

@@ -14,7 +14,8 @@ from ..options import Input as InputOptions
 from ..options import Reports, node_specs
 from ..timing import Aligner, ClockModel, Stamping, Sync
 from . import qos
-from .diagnostics import WARN, Rates, Reporter, Status
+from .apart import Apart
+from .diagnostics import Rates, Reporter, Status
 from .messages import imu_values, new_imu, set_imu_values, set_time, to_ns
 from .parameters import declare, group
 from .shell import Graph, Program, run_nodes
@@ -41,6 +42,7 @@ class TimeSyncNode(Node):
         values = declare(self, node_specs("time_sync"))
         inputs = group(InputOptions, values, "input.")
         self.aligner = Aligner(group(Sync, values, "aligner."))
+        self.apart = Apart(self.aligner)
         self.stamper = Stamper(
             group(Stamping, values, "stamping."), group(ClockModel, values, "clock.")
         )
@@ -64,6 +66,7 @@ class TimeSyncNode(Node):
             stamp_ns = self.stamper.stamp(foot, to_ns(message.header.stamp), arrival_ns)
             if stamp_ns is None:
                 return
+            self.apart.see(foot, stamp_ns)
             for pair in self.aligner.push(foot, stamp_ns, imu_values(message)):
                 self._publish(pair)
 
@@ -90,8 +93,7 @@ class TimeSyncNode(Node):
         status.values["pair rate (Hz)"] = rates["pairs"]
         status.values.update(counters)
         self.stamper.describe(status)
-        if rates["late"] > 0:
-            status.note(WARN, "samples of one foot come too late and are dropped")
+        self.apart.describe(status)
 
 
 def main() -> int:

@@ -52,6 +52,7 @@ class Input:
     ``lost`` counts the holes in the publisher's own numbering, which no queue hides.
     ``arrival_ns`` is when the newest message came from the network, whatever time it then spent
     in the queue; with ``use_sim_time`` it is the simulated time at which it is looked at.
+    ``hint`` is added where a publisher is there and silent.
     """
 
     def __init__(
@@ -61,13 +62,14 @@ class Input:
         topic: str,
         callback: Callable[[Any], None],
         profile: QoSProfile,
+        hint: str = "",
     ) -> None:
         self.received = 0
         self.lost = 0
         self._number: int | None = None
         self.arrival_ns = 0
         self.last_s = self._free_s = time.monotonic()
-        self._node, self._callback, self._profile = node, callback, profile
+        self._node, self._callback, self._profile, self._hint = node, callback, profile, hint
         self._type_name = _type_name(message_type)
         silent = SubscriptionEventCallbacks(use_default_callbacks=False)  # `_fault` says it all
         self._subscription = node.create_subscription(
@@ -110,7 +112,8 @@ class Input:
         since_s = self.last_s if begun else self._free_s
         count = self._node.count_publishers(self.topic)
         who = f"topic '{self.topic}' has {count} publisher(s)"
-        return silence(who, begun, now_s - since_s, options)
+        level, message = silence(who, begun, now_s - since_s, options)
+        return Complaint(level, message + self._hint)
 
     def _fault(self) -> str | None:
         """Return why nothing can come, or None when something could.

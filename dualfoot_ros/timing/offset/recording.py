@@ -12,10 +12,9 @@ from .arrival import offset_by_arrival, tells_arrivals
 from .gait import offset_by_gait
 from .motion import METHODS as MOTION_METHODS
 from .motion import offset_by_motion
-from .result import Offset
+from .result import DOUBT, Offset
 
 METHODS = (*MOTION_METHODS, "arrival")
-DOUBT = 0.5  # confidence below which the result is called doubtful
 
 
 @dataclass(frozen=True)
@@ -80,7 +79,7 @@ def synchronise(
 
 def _by_motion(left: ImuSeries, right: ImuSeries, method: str) -> Synchronised:
     found = offset_by_motion(left, right, method)
-    notes = _doubts(found)
+    notes = found.notes + _doubts(found)
     applied = {"right": found}
     if abs(found.offset_ns) < 3e9 * found.std_s and found.skew_ppm == 0.0:
         notes += (

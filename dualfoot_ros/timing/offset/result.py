@@ -9,6 +9,8 @@ import numpy as np
 
 from ...core.series import ImuSeries, IntArray
 
+DOUBT = 0.5  # confidence below which the result is called doubtful
+
 
 @dataclass(frozen=True)
 class Offset:
@@ -24,6 +26,7 @@ class Offset:
     std_s : standard deviation of the offset, s; for "motion" with what gaits are asymmetric by
     confidence : 0 to 1; below 0.5 another offset is nearly as good
     detail : named values the confidence rests on
+    notes : sentences on what contradicts it
     """
 
     method: str
@@ -34,6 +37,7 @@ class Offset:
     std_s: float
     confidence: float
     detail: Mapping[str, float] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     def apply(self, stamp_ns: IntArray) -> IntArray:
         """Return the stamps (N,) int64 ns on the other clock."""

@@ -1,8 +1,9 @@
 """Offset of two clocks from a shake: both devices held together and turned to and fro.
 
 Held together they turn alike, so their angular rates differ by a constant rotation only.  The
-correlation of the norms finds the lag; that a rotation maps the one vector on the other (Kabsch
-1976) tells a shake from two feet that merely walk alike.
+correlation of the norms finds the lag.  Two things tell a shake from feet that merely walk
+alike: a rotation maps the one vector on the other (Kabsch 1976), and nothing else in the recording
+matches nearly as well, while a step is like any other step.
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ SMOOTH_S = 0.01
 WINDOW_S, HOP_S = 3.0, 1.0
 LEAST_RATE = 1.5  # rad/s rms in a window worth a look
 LEAST_CORRELATION = 0.9  # of the norms, before the vectors are compared
-LARGEST_RESIDUAL = 0.10  # of the rotated rates; two feet that walk differ by 0.19 and more
+LARGEST_RESIDUAL = 0.10  # of the rotated rates; real feet that walk differ by 0.19 and more
+LEAST_LEAD = 4.0  # of what the best correlation elsewhere leaves over what this one leaves
 LEAST_SPAN_S = 30.0  # between shakes, to tell a skew
 STD_S = 0.001
 
@@ -58,7 +60,8 @@ def offset_by_shake(
     if not found:
         raise TimingError(
             "no shake is found: at no time did both devices turn alike by more than "
-            f"{LEAST_RATE} rad/s for {WINDOW_S:g} s; hold them together and turn them to and fro"
+            f"{LEAST_RATE} rad/s for {WINDOW_S:g} s, and as at no other time; hold them together "
+            "and turn them to and fro"
         )
     best = min(found, key=lambda s: s.residual)
     time_s = np.array([s.stamp_s for s in found])
@@ -87,7 +90,10 @@ def offset_by_shake(
 
 
 def find_shakes(left: ImuSeries, right: ImuSeries) -> list[Shake]:
-    """Return the windows in which both devices turned alike; all at lags that belong together."""
+    """Return the windows in which both devices turned alike, and as nowhere else.
+
+    All are at lags that belong together.
+    """
     if min(left.duration_s, right.duration_s) < WINDOW_S:
         return []
     norms = [signal_of(s, np.linalg.norm(s.angular_rate, axis=1), SMOOTH_S) for s in (left, right)]
@@ -120,6 +126,8 @@ def _match(part: Signal, other: Signal, left: ImuSeries, right: ImuSeries) -> Sh
         return None
     apart = np.abs(np.arange(len(value)) - top) > round(0.5 / STEP_S)
     second = float(value[apart].max()) if apart.any() else 0.0
+    if 1.0 - second < LEAST_LEAD * (1.0 - value[top]):
+        return None
     middle_s = other.start_ns * 1e-9 + start_s + 0.5 * WINDOW_S
     return Shake(middle_s, lag_s, residual, float(peak), second)
 

@@ -18,7 +18,7 @@ from ...core.series import FloatArray
 from .envelope import LowerEnvelope
 from .interval import NEAR_S, find_interval
 
-APART_S = 0.001  # samples that arrive closer together came in one notification
+APART_S = 0.001  # samples that arrive so soon after one another came in one notification
 NOTIFICATIONS = 65  # in which an interval is looked for
 HOST_S = 0.0003  # what the host usually adds
 PERIOD_ERROR = 1.0e-3  # of an interval at first, as a ratio
@@ -26,7 +26,7 @@ LOST = 0.4  # with a smaller share of the arrivals at events, there are none
 
 
 class Notification(NamedTuple):
-    """Freshest sample of a notification, and when it came; s."""
+    """Freshest sample of a notification, and when its first one came; s."""
 
     time_s: float
     arrival_s: float
@@ -42,6 +42,7 @@ class ConnectionEvents:
         self._bin_s, self._bins = bin_s, bins
         self._recent: deque[Notification] = deque(maxlen=NOTIFICATIONS)
         self._newest: Notification | None = None
+        self._last_s = 0.0
         self._until_search = NOTIFICATIONS
         self._forget()
 
@@ -57,8 +58,9 @@ class ConnectionEvents:
         That is mostly none, or one; while no interval is known none; all the recent ones when it
         is found.
         """
-        newest = self._newest
-        if newest is None or abs(arrival_s - newest.arrival_s) > APART_S:
+        newest, since_s = self._newest, arrival_s - self._last_s
+        self._last_s = arrival_s
+        if newest is None or abs(since_s) > APART_S:
             self._newest = Notification(time_s, arrival_s)
             return [] if newest is None else self._notified(newest)
         if time_s > newest.time_s:

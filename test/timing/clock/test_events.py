@@ -42,6 +42,18 @@ def test_events_lie_on_one_lattice_though_arrivals_do_not(interval):
     assert waits.min() > -0.001  # no event before the sample was taken
 
 
+def test_samples_of_a_notification_may_be_read_one_after_the_other():
+    """A host that hands over ten datagrams takes its time for each."""
+    link, rng = BleLink(interval=0.0375), np.random.default_rng(2)
+    sampled = np.round(np.arange(3000) * 1e9 / RATE).astype(np.int64)
+    arrived = arrivals(link, sampled, np.random.default_rng(1)) * 1e-9
+    arrived += 0.0003 * (np.arange(3000) % link.burst) + rng.uniform(0.0, 1e-4, 3000)
+    events = ConnectionEvents(0.5, 240)
+    for time, each in zip((1e-9 * sampled).tolist(), arrived.tolist(), strict=True):
+        events.add(time, each)
+    assert events.interval_s == pytest.approx(0.0375, rel=1e-4)
+
+
 def test_nothing_comes_out_of_a_link_without_events():
     events = ConnectionEvents(0.5, 240)
     rng = np.random.default_rng(0)

@@ -146,6 +146,32 @@ def test_exports_with_a_separator_line_or_semicolons_are_read(tmp_path, pair):
     assert np.array_equal(found.right.stamp_ns, plain.right.stamp_ns)
 
 
+@pytest.mark.parametrize("change", ["0.5, {}", "{}, 0.5"])
+def test_a_row_with_a_cell_too_many_is_refused_and_not_read_shifted(tmp_path, change, pair):
+    lines = pair[0].read_text().splitlines()
+    for at in (-3, -7):
+        lines[at] = change.format(lines[at])
+    pair[0].write_text("\n".join(lines))
+    number = len(lines) - 6
+    with pytest.raises(RecordingError, match=rf"L.csv.*line {number} has 12 .* 11 .*\(such rows: 2"):
+        import_recording(ImportOptions(left=pair[0], right=pair[1]))
+
+
+def test_a_row_with_a_cell_too_few_is_refused_and_not_read_shifted(tmp_path, pair):
+    lines = pair[0].read_text().splitlines()
+    lines[-3] = ",".join(lines[-3].split(",")[1:])
+    pair[0].write_text("\n".join(lines))
+    with pytest.raises(RecordingError, match="has 10 cells where the header names 11 columns"):
+        import_recording(ImportOptions(left=pair[0], right=pair[1]))
+
+
+def test_empty_cells_at_the_end_of_rows_say_nothing(tmp_path, pair):
+    plain = import_recording(ImportOptions(left=pair[0], right=pair[1])).left
+    pair[0].write_text(pair[0].read_text().replace("0.9\n", "0.9,,\n"))
+    padded = import_recording(ImportOptions(left=pair[0], right=pair[1])).left
+    assert np.array_equal(padded.specific_force, plain.specific_force)
+
+
 def test_an_offset_moves_the_right_foot_only(pair):
     options = ImportOptions(left=pair[0], right=pair[1], right_offset_s=162.490736)
     found = import_recording(options)

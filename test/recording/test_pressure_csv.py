@@ -42,7 +42,8 @@ def test_other_units_of_time_become_nanoseconds(tmp_path, name, unit):
         ("time_s,time_ms,pressure_Pa\n1,1000,2\n", "exactly one must be one of stamp_ns"),
         ("time_s,pressure_Pa\n1,2\n2,high\n", "line 3: pressure_Pa is 'high'"),
         ("stamp_ns,pressure_Pa\n1.5,2\n", "line 2: stamp_ns is '1.5'"),
-        ("time_s,pressure_Pa\n1\n", "line 2: pressure_Pa is None"),
+        ("time_s,pressure_Pa\n1\n", "line 2: not as many cells"),
+        ("time_s,pressure_Pa\n1,2\n2,7,3\n", "line 3: not as many cells"),
     ],
 )
 def test_what_cannot_be_read_is_named(tmp_path, text, said):

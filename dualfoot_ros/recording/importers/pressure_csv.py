@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -32,6 +33,7 @@ def read_pressure(path: Path) -> PressureSeries:
         raise RecordingError(f"cannot read '{path}' as csv: {error}") from None
     if not rows:
         raise RecordingError(f"'{path}' holds no samples; expected a line of names, then numbers")
+    _check_widths(path, rows)
     time, pressure = _known(path, rows[0], TIMES), _known(path, rows[0], PRESSURES)
     pascal = _column(path, rows, pressure) * PRESSURES[pressure]
     if time == "stamp_ns":  # nanoseconds of an epoch do not fit a float
@@ -39,6 +41,17 @@ def read_pressure(path: Path) -> PressureSeries:
     else:
         stamps = np.round(_column(path, rows, time) * TIMES[time]).astype(np.int64)
     return PressureSeries(stamps.astype(np.int64), pascal)
+
+
+def _check_widths(path: Path, rows: list[dict[str, str]]) -> None:
+    """Refuse rows with a cell too many or too few, which would be read shifted."""
+    for i, row in enumerate(rows):
+        extra: list[str] = dict[Any, Any](row).get(None, [])  # where DictReader puts the rest
+        if "".join(extra).strip() or None in row.values():
+            raise RecordingError(
+                f"'{path}', line {i + 2}: not as many cells as the first line has names; which "
+                "value belongs to which column is unknown, so export again or remove the row"
+            )
 
 
 def _known(path: Path, row: dict[str, str], names: dict[str, float]) -> str:

@@ -119,6 +119,7 @@ def _table(
     rows = [line for line in lines if line.strip(f"{delimiter} ")]
     if not rows:
         raise RecordingError(f"'{path}' holds no sample after its header; record again")
+    _check_widths(lines, names, delimiter, path, first)
     columns = [names.index(name) for name in wanted]
     try:
         return np.loadtxt(
@@ -129,6 +130,26 @@ def _table(
         raise RecordingError(
             f"'{path}' is damaged: {reason} (rows counted from line {first})"
         ) from None
+
+
+def _check_widths(
+    lines: list[str], names: list[str], delimiter: str, path: Path, first: int
+) -> None:
+    """Refuse rows with a cell too many or too few, which would be read shifted."""
+    named = max(k for k, name in enumerate(names, start=1) if name)
+    bad = []
+    for number, line in enumerate(lines, start=first):
+        cells = line.split(delimiter)
+        beyond = "".join(cells[named:]).strip()
+        if (beyond or len(cells) < named) and line.strip(f"{delimiter} "):
+            bad.append((number, len(cells)))
+    if bad:
+        number, count = bad[0]
+        raise RecordingError(
+            f"'{path}' is damaged: line {number} has {count} cells where the header names "
+            f"{named} columns (such rows: {len(bad)}); which value belongs to which column is "
+            "unknown there, so export again or remove these rows"
+        )
 
 
 def _header(lines: list[str], delimiter: str) -> dict[str, str]:

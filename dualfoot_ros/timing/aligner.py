@@ -1,9 +1,10 @@
 """Pairs with equal stamps from two streams, sample by sample.
 
 The grid is either the stamps of one foot, whose samples then pass unchanged while the other foot
-is interpolated linearly (or held, ``between``) onto them (``rate`` 0: no rate has to be known or estimated, a sensor
-clock that is off or drifts is followed, and streams that share their stamps pass untouched), or
-it is uniform from the first common stamp on (``rate`` above 0: both feet are interpolated).
+is interpolated linearly (or held, ``between``) onto them (``rate`` 0: no rate has to be known or
+estimated, a sensor clock that is off or drifts is followed, and streams that share their stamps
+pass untouched), or it is uniform from the first common stamp on (``rate`` above 0: both feet are
+interpolated).
 Nothing looks at arrival times, so any interleaving whose lateness is below ``max_delay`` gives
 the same pairs, bit for bit those of :func:`dualfoot_ros.timing.align`.
 """
@@ -29,8 +30,8 @@ class Aligner:
 
     ``counters`` holds for each foot ``left_accepted``, ``left_not_finite``, ``left_duplicate``,
     ``left_out_of_order``, ``left_gap``, and of the grid ``pairs``, ``interpolated`` (pairs in
-    which a foot was, or was held), ``in_gap`` (dropped, a foot has a hole there), ``late`` (dropped, a foot
-    came too late), ``outside`` (dropped, only one foot was on) and ``restarts``.
+    which a foot was, or was held), ``in_gap`` (dropped, a foot has a hole there), ``late``
+    (dropped, a foot came too late), ``outside`` (dropped, only one foot was on) and ``restarts``.
     """
 
     def __init__(self, config: Sync | None = None) -> None:

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.series import FloatArray, ImuSeries
-from ..timing import clean
 from .allan import FLOOR, AllanCurve, Slopes, allan_curve, slopes_of
 from .errors import CalibrationError
 from .sensor import TRIADS, Triad
+from .soundness import check_measured, usable_samples
 from .static import Static, no_standstill, still_spans
 
 LARGEST_BIAS = 0.15  # rad/s; more is a rotation (alignment.max_rate)
@@ -96,7 +96,8 @@ def fit_gyro(recordings: Sequence[tuple[str, ImuSeries]], config: Static | None 
     Raises
     ------
     CalibrationError
-        When none has a standstill, or the sensor turned steadily in it.
+        When none has a standstill, the sensor turned steadily in it, or what it holds are no
+        measurements.
     """
     config = config or Static()
     name, still = _longest(recordings, config)
@@ -117,11 +118,14 @@ def fit_gyro(recordings: Sequence[tuple[str, ImuSeries]], config: Static | None 
 def _longest(recordings: Sequence[tuple[str, ImuSeries]], config: Static) -> tuple[str, ImuSeries]:
     found = []
     for name, series in recordings:
-        good = clean(series).series
-        found += [(name, good[span]) for span in still_spans(good, config)]
+        good = usable_samples(series, name)
+        spans = still_spans(good, config)
+        for span in spans:
+            check_measured(good[span], name, "gyro")
+        found += [(name, good[span]) for span in spans]
     if not found:
         name, series = recordings[0]
-        raise CalibrationError(no_standstill(clean(series).series, name, config))
+        raise CalibrationError(no_standstill(series, name, config))
     return max(found, key=lambda named: named[1].duration_s)
 
 

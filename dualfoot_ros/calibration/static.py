@@ -10,8 +10,10 @@ import numpy as np
 
 from ..core.parameters import Parameters, parameter
 from ..core.series import FloatArray, ImuSeries
+from ..recording.quality import quality_of
 from ..timing import clean
 from .errors import CalibrationError
+from .soundness import check_measured, not_finite, usable_samples
 
 GRAVITY_ERROR = 1.5  # m/s^2, more than any bias
 NEAR = np.cos(np.radians(15.0))  # attitudes closer than this are one
@@ -84,17 +86,19 @@ def segments_of(series: ImuSeries, name: str, config: Static | None = None) -> l
     Raises
     ------
     CalibrationError
-        When there is none, or its gravity shows that the unit is wrong.
+        When there is none, its gravity shows that the unit is wrong, or what it holds are no
+        measurements.
     """
     config = config or Static()
-    good = clean(series).series
+    good = usable_samples(series, name)
     spans = still_spans(good, config)
     if not spans:
-        raise CalibrationError(no_standstill(good, name, config))
+        raise CalibrationError(no_standstill(series, name, config))
     found = []
     for number, span in enumerate(spans, start=1):
         part = good[span]
         label = name if len(spans) == 1 else f"{name} ({number})"
+        check_measured(part, label, "accelerometer")
         rate = part.angular_rate.mean(axis=0)
         found.append(Segment(label, part.duration_s, part.specific_force, rate))
         check_gravity(found[-1])
@@ -138,17 +142,25 @@ def still_spans(good: ImuSeries, config: Static | None = None) -> list[slice]:
     ]
 
 
-def no_standstill(good: ImuSeries, name: str, config: Static) -> str:
+def no_standstill(series: ImuSeries, name: str, config: Static) -> str:
     """Say that a recording has no standstill, and how far it is from one."""
+    good, quality = clean(series).series, quality_of(series)
     told = f"'{name}': no standstill of {config.duration:g} s in {good.duration_s:.1f} s"
+    if quality.not_finite:
+        return f"{told}, for {not_finite(quality)}; repair the driver or the export"
     advice = "hold the sensor still, best on a table"
     size = _size(good, config)
     if not size:
         return f"{told}; {advice}"
-    quietest = float(_windows(good, size).force.std(axis=1).max(axis=1).min())
+    windows = _windows(good, size)
+    if not windows.whole.any():
+        return f"{told} without {quality.gaps} gaps; check the link of the sensor and the export"
+    force = float(windows.force[windows.whole].std(axis=1).max(axis=1).min())
+    rate = float(windows.rate[windows.whole].std(axis=1).max(axis=1).min())
     return (
         f"{told} (in the stillest {config.window:g} s the specific force scatters by "
-        f"{quietest:.3g} m/s^2, allowed is {config.max_force_std:g}); {advice}"
+        f"{force:.3g} m/s^2, allowed is {config.max_force_std:g}, and the angular rate by "
+        f"{rate:.3g} rad/s, allowed is {config.max_rate_std:g}); {advice}"
     )
 
 

@@ -58,7 +58,8 @@ def run(args: argparse.Namespace) -> int:
     if not 9.7 <= args.gravity <= 9.9:
         raise CalibrationError(f"--gravity is {args.gravity:g}; allowed is 9.7 to 9.9 m/s^2")
     calibration = common.existing(args.output)
-    found = {name: _fit(name, sources, args) for name, sources in common.load(args).items()}
+    loaded = common.load(args)
+    found = {name: _fit(name, sources, args) for name, sources in loaded.items()}
     files = []
     if args.output is not None:
         for name, (fit, _, _) in found.items():
@@ -70,6 +71,7 @@ def run(args: argparse.Namespace) -> int:
     lines = [line for name, parts in found.items() for line in _words(name, *parts)]
     facts = {name: _facts(*parts) for name, parts in found.items()}
     common.show(args, {**facts, "files": [str(f) for f in files]}, [*lines, *map(str, files)])
+    common.warn_of(loaded, "accelerometer")
     for name, (fit, _, _) in found.items():
         if fit.doubtful:
             common.warn(

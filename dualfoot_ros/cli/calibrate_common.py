@@ -100,6 +100,18 @@ def warn(sentence: str) -> None:
     print(f"dualfoot calibrate: warning: {sentence}", file=sys.stderr)
 
 
+def warn_of(found: Mapping[str, Sequence[tuple[str, ImuSeries]]], triad: str) -> None:
+    """Say what is wrong with recordings that tell of ``triad`` all the same."""
+    from ..calibration.soundness import doubts
+    from ..calibration.static import still_spans
+    from ..timing import clean
+
+    for name, series in (named for sources in found.values() for named in sources):
+        good = clean(series).series
+        for sentence in doubts(series, name, triad, [good[s] for s in still_spans(good)]):
+            warn(sentence)
+
+
 def numbers(values: Any, digits: int) -> str:
     """Return a vector as text."""
     return "(" + ", ".join(f"{v:+.{digits}f}" for v in values) + ")"

@@ -49,7 +49,8 @@ def run(args: argparse.Namespace) -> int:
 
     _check_outputs(args)
     calibration = common.existing(args.output)
-    found = {name: fit_gyro(sources) for name, sources in common.load(args).items()}
+    loaded = common.load(args)
+    found = {name: fit_gyro(sources) for name, sources in loaded.items()}
     noise = _noise(found)
     files = [] if args.parameters is None else [_write_parameters(args.parameters, found, noise)]
     if args.output is not None:
@@ -64,6 +65,7 @@ def run(args: argparse.Namespace) -> int:
     facts = {name: _facts(fit) for name, fit in found.items()}
     shown = {**facts, "parameters": noise, "files": [str(f) for f in files]}
     common.show(args, shown, [*lines, *map(str, files)])
+    common.warn_of(loaded, "gyro")
     for name, fit in found.items():
         for sentence in fit.unseen():
             common.warn(f"{name}: {sentence}")

@@ -20,6 +20,8 @@ LEAST_SAMPLES = 10
 AT_REST = (1.0, 0.2)  # m/s^2 from gravity, rad/s
 MOVES = (2.0, 1.0)  # m/s^2, rad/s, by which another axis moves meanwhile
 TRIADS = ("specific force", "angular rate")
+HELD = 0.3  # share of one value in a standstill; noise of several digits gives a hundredth
+NOISY = 0.1  # another axis of the triad that has less than this of one value is not coarse
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,44 @@ def stuck_of(series: ImuSeries) -> tuple[Stuck, ...]:
         if runs:
             found.append(_told(f"{TRIADS[axis // 3]} {'xyz'[axis % 3]}", runs, seconds))
     return tuple(found)
+
+
+@dataclass(frozen=True)
+class Held:
+    """An axis that holds a value at rest: triad (0, 1), "x", "y" or "z", value, share of it."""
+
+    triad: int
+    axis: str
+    value: float
+    share: float
+
+
+def held_at_rest(still: ImuSeries) -> tuple[Held, ...]:
+    """Return the axes that measure nothing in a standstill: stuck there, or at a limit.
+
+    At rest nothing but noise moves a value.  An axis that holds its value all the time, or has
+    its greatest or smallest one in a large part of it, while the noise of another one moves that,
+    is stuck or clipped; so is a triad of which none moves.
+    """
+    if len(still) < 2 * LEAST_SAMPLES:
+        return ()
+    found = []
+    for triad, values in enumerate((still.specific_force, still.angular_rate)):
+        told = [_most(column) for column in values.T]
+        if min(share for _, share, _ in told) < NOISY or all(s == 1.0 for _, s, _ in told):
+            found += [
+                Held(triad, axis, value, share)
+                for axis, (value, share, at_end) in zip("xyz", told, strict=True)
+                if share > HELD and at_end
+            ]
+    return tuple(found)
+
+
+def _most(column: FloatArray) -> tuple[float, float, bool]:
+    """Return the value that is most frequent, its share, and whether it is at an end."""
+    values, counts = np.unique(column, return_counts=True)
+    most = int(np.argmax(counts))
+    return float(values[most]), float(counts[most] / len(column)), most in (0, len(values) - 1)
 
 
 def _held(values: FloatArray) -> list[tuple[int, int]]:

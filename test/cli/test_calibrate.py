@@ -185,6 +185,20 @@ def test_no_other_file_is_overwritten(six, bags, tmp_path, capsys):
     assert mine.read_text() == "mine: true\n"
 
 
+def test_a_stuck_sensor_is_refused_for_what_it_spoils_and_a_warning_for_the_rest(tmp_path, capsys):
+    series = resting(SIX[0], 10.0)
+    series.specific_force[:, 1] = 0.25
+    path = str(export(tmp_path / "Axu.csv", series))
+    assert main(["calibrate", "accelerometer", path]) == 2
+    sentence = "'Axu': specific force y stays at 0.25 m/s^2 in 100% of the standstill"
+    assert sentence in capsys.readouterr().err
+    assert main(["calibrate", "gyro", path]) == 0
+    captured = capsys.readouterr()
+    assert f"warning: {sentence}" in captured.err
+    assert "gyro bias" in captured.out
+    assert "noise.accelerometer" not in captured.out
+
+
 def test_parameters_replace_a_file_only_when_told_to_and_nothing_but_a_file(six, tmp_path, capsys):
     mine, pipe, output = tmp_path / "mine.yaml", tmp_path / "pipe", tmp_path / "gyro.yaml"
     mine.write_text("mine: true\n")

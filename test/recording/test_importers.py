@@ -153,7 +153,8 @@ def test_a_row_with_a_cell_too_many_is_refused_and_not_read_shifted(tmp_path, ch
         lines[at] = change.format(lines[at])
     pair[0].write_text("\n".join(lines))
     number = len(lines) - 6
-    with pytest.raises(RecordingError, match=rf"L.csv.*line {number} has 12 .* 11 .*\(such rows: 2"):
+    said = rf"L.csv.*line {number} has 12 cells .* 11 columns \(such rows: 2\)"
+    with pytest.raises(RecordingError, match=said):
         import_recording(ImportOptions(left=pair[0], right=pair[1]))
 
 

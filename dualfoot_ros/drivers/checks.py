@@ -57,6 +57,7 @@ class SensorCheck:
     def accept(self, sample: Sample) -> bool:
         """Take a sample; return False when it cannot be a reading of this sensor."""
         self.counters["seen"] += 1
+        self._follow_time(sample)
         force = max(map(abs, sample.specific_force))
         rate = max(map(abs, sample.angular_rate))
         if _beyond(force, self.options.force_range) or _beyond(rate, self.options.rate_range):
@@ -65,8 +66,11 @@ class SensorCheck:
         self.counters["clipped_force"] += _clipped(force, self.options.force_range)
         self.counters["clipped_rate"] += _clipped(rate, self.options.rate_range)
         self._follow_runs((*sample.specific_force, *sample.angular_rate))
-        self._follow_time(sample)
         return True
+
+    def interrupt(self) -> None:
+        """Say that samples are missing here, so that the interval to the next tells no rate."""
+        self._last_time = None
 
     @property
     def rate_hz(self) -> float:

@@ -18,11 +18,14 @@ from .formats import make_decoder
 from .pacing import Pacer
 from .reader import Reader, State
 from .sample import Sample
+from .senders import Senders
 from .serial_port import SerialOptions, SerialTransport
 from .tcp import TcpOptions, TcpTransport
 from .transport import Transport
 from .udp import UdpOptions, UdpTransport
 from .uri import SourceUri, parse_uri
+
+MISSING = ("lost", "not_finite", "bad_checksum", "malformed")  # leave a hole between samples
 
 
 class Source:
@@ -58,6 +61,7 @@ class Source:
         self.decoder = make_decoder(parsed.format, parsed.decoder)
         self.transport = make_transport(parsed)
         self.check = SensorCheck(checks)
+        self.senders = Senders()
         self.reader = Reader(self.transport, self._take, self._change, parsed.backoff, clock)
         self._conditioner = Conditioner(conditioning)
         self._on_samples = on_samples
@@ -102,10 +106,25 @@ class Source:
         self._on_state(state, reason)
 
     def _take(self, data: bytes, arrival_ns: int) -> None:
-        decoded = map(self._conditioner.apply, self.decoder.feed(data, arrival_ns))
-        samples = [sample for sample in decoded if self.check.accept(sample)]
+        missing = self._missing()
+        decoded = self.decoder.feed(data, arrival_ns)
+        whole = self._missing() == missing
+        if decoded and isinstance(self.transport, UdpTransport):
+            self.senders.see(self.transport.sender, len(decoded))
+        samples = [s for s in map(self._conditioner.apply, decoded) if self._accept(s, whole)]
+        if not whole:
+            self.check.interrupt()
         if samples:
             self._deliver(samples)
+
+    def _missing(self) -> int:
+        return sum(self.decoder.counters[name] for name in MISSING)
+
+    def _accept(self, sample: Sample, whole: bool) -> bool:
+        """Check a sample of a piece that is ``whole``, or has holes nobody knows where."""
+        if not whole:
+            self.check.interrupt()
+        return self.check.accept(sample)
 
     def _deliver(self, samples: list[Sample]) -> None:
         if self._before_first is not None:

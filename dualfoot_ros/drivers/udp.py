@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from ..core.parameters import Parameters, parameter
 from .address import Address, resolve
 from .errors import SourceError
+from .senders import MAX_SENDERS
 from .transport import POLL_S
 
 MAX_DATAGRAM = 65535
 RECEIVE_BUFFER = 1 << 20  # bytes; a stall of a second or two loses nothing
-MAX_SENDERS = 16
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,8 @@ class UdpOptions(Parameters):
 class UdpTransport:
     """Take datagrams on one port.
 
-    ``senders`` holds the addresses datagrams were taken from: more than one means two devices on
-    one port, whose samples mix.  Datagrams of others than the peers are counted as ``foreign``.
+    ``sender`` is the address and port of the newest datagram.  Datagrams of others than the
+    peers are counted as ``foreign``, and ``strangers`` holds their addresses.
     """
 
     reopens = True
@@ -44,9 +44,10 @@ class UdpTransport:
         """
         self.description = f"UDP {address}"
         self.counters: Counter[str] = Counter()
-        self.senders: set[str] = set()
+        self.sender = ""
+        self.strangers: dict[str, int] = {}
         self._address = address
-        self._peers = frozenset(_peers((options or UdpOptions()).peers))
+        self.peers = frozenset(_peers((options or UdpOptions()).peers))
         self._socket: socket.socket | None = None
 
     def open(self) -> None:
@@ -65,13 +66,17 @@ class UdpTransport:
         except TimeoutError:
             return b""
         host = sender[0].partition("%")[0]
-        if self._peers and host not in self._peers:
-            self.counters["foreign"] += 1
+        if self.peers and host not in self.peers:
+            self._refuse(host)
             return b""
-        if len(self.senders) < MAX_SENDERS:
-            self.senders.add(host)
+        self.sender = str(Address(host, sender[1]))
         self.counters["datagrams"] += 1
         return data
+
+    def _refuse(self, host: str) -> None:
+        self.counters["foreign"] += 1
+        if host in self.strangers or len(self.strangers) < MAX_SENDERS:
+            self.strangers[host] = self.strangers.get(host, 0) + 1
 
     @property
     def port(self) -> int:

@@ -14,7 +14,8 @@ DELIVERS_S = (
 )
 REMEDY = (
     "set stamping.left and stamping.right to device (stamp, where imu_adapter does it), or "
-    "add {offset:.3f} s with stamping.right_offset; a recording is brought together by dualfoot sync"
+    "add {offset:.3f} s with stamping.right_offset; a recording is brought together by "
+    "dualfoot sync"
 )
 
 

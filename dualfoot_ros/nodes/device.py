@@ -14,9 +14,11 @@ from ..core.mounting import Vector
 from ..core.series import FloatArray
 from ..drivers import Checks, Sample, Source, State
 from ..drivers.errors import SourceError
+from ..drivers.udp import UdpTransport
 from ..options import Input as InputOptions
 from ..timing import Counter, Unwrapper
 from .diagnostics import ERROR, OK, WARN, Status
+from .refusals import REFUSED, in_words, increases
 from .watch import Complaint, silence
 
 Take = Callable[[int | None, int, FloatArray, Vector | None], None]
@@ -54,6 +56,10 @@ class Device:
         self._unwrapper: Unwrapper | None = None
         self._last_s = time.monotonic()
         self._said = OK
+        self._told = State.STOPPED
+        self._at_last: dict[str, int] = {}  # what was counted when the last good sample came
+        self._returns: dict[str, int] = {}
+        self._sent: dict[str, int] = {}
         self.source = Source(
             uri,
             self._take,
@@ -72,7 +78,7 @@ class Device:
         self.source.stop()
 
     def _take(self, samples: list[Sample]) -> None:
-        self._last_s = time.monotonic()
+        self._last_s, self._at_last = time.monotonic(), self._counted()
         try:
             for sample in samples:
                 values = np.array((*sample.specific_force, *sample.angular_rate))
@@ -101,12 +107,13 @@ class Device:
             if self.source.reader.counters["opened"] == 1:  # to open again is no sign of life
                 self._last_s = time.monotonic()
             log.info(f"source '{uri}' is connected")
-        elif state is State.WAITING:
+        elif state is State.WAITING and self._told is not State.WAITING:
             log.warning(f"source '{uri}' is not there and is tried again: {reason}")
         elif state is State.FAILED and self._node.context.ok():
             self._ended(SourceError(f"source '{uri}' has failed: {reason}"))
         elif state is State.ENDED:
             self._ended(self._emptiness())
+        self._told = state
 
     def _wait_to_begin(self, stop: threading.Event) -> None:
         if self._begin is not None:
@@ -135,11 +142,39 @@ class Device:
         if self.without_time:
             status.values["without_time"] = self.without_time
             status.note(WARN, "the device sends no time: its samples get that of their arrival")
-        senders = getattr(self.source.transport, "senders", ())
-        if len(senders) > 1:
-            names = ", ".join(sorted(senders))
-            status.note(WARN, f"several devices send to one port ({names}): list the peers")
+        self._describe_senders(status)
         self._describe_silence(status)
+
+    def _describe_senders(self, status: Status) -> None:
+        """Say whose datagrams come, and warn when those of several devices mix."""
+        if not isinstance(self.source.transport, UdpTransport):
+            return
+        samples, returns = dict(self.source.senders.samples), dict(self.source.senders.returns)
+        status.values["senders"] = len(samples)
+        if self.source.transport.strangers:
+            status.values["foreign senders"] = self._strangers()
+        back = [name for name, n in increases(returns, self._returns).items() if n > 0]
+        sent = increases(samples, self._sent)
+        self._returns, self._sent = returns, samples
+        if len(back) > 1:
+            names = ", ".join(f"{name} ({sent.get(name, 0)} samples)" for name in sorted(back))
+            status.note(
+                WARN,
+                f"{len(back)} devices send to one port and their samples mix: {names}; give each "
+                "a port of its own, or list the address of the right one in peers",
+                "senders",
+            )
+
+    def _strangers(self) -> str:
+        assert isinstance(self.source.transport, UdpTransport)
+        found = dict(self.source.transport.strangers)
+        return ", ".join(f"{count} datagrams from {host}" for host, count in found.items())
+
+    def _counted(self) -> dict[str, int]:
+        """Return what was refused so far, by name."""
+        parts = self.source.decoder, self.source.check, self.source.transport
+        names = (*REFUSED, "foreign")
+        return {name: sum(part.counters[name] for part in parts) for name in names}
 
     def _describe_silence(self, status: Status) -> None:
         complaint = self.complaint()
@@ -147,6 +182,8 @@ class Device:
             self._said = OK
             return
         status.note(*complaint)
+        if self.source.state in (State.WAITING, State.FAILED):
+            return  # that was said when it became so
         if complaint.level > self._said:
             self._node.get_logger().warning(complaint.message)
             self._said = complaint.level
@@ -160,11 +197,31 @@ class Device:
         if state not in (State.CONNECTING, State.CONNECTED) or silent_s < self._options.silence:
             return None
         decoder = self.source.decoder.counters
+        since = increases(self._counted(), self._at_last)
+        if since["foreign"]:
+            return Complaint(ERROR, self._misdirected())
+        refused = in_words(since)
+        if refused and (decoder["samples"] or decoder["not_finite"]):
+            return Complaint(
+                ERROR,
+                f"source '{uri}' is {state.value} but nothing that came can be used for "
+                f"{silent_s:.1f} s: {refused}",
+            )
         if decoder["samples"] or not decoder["bytes"]:
             who = f"source '{uri}' is {state.value}"
             return silence(who, decoder["samples"] > 0, silent_s, self._options)
         return Complaint(
             ERROR,
             f"source '{uri}' sends bytes but no sample was found in {decoder['bytes']}: "
-            "check format and baud, and what the device is set to send",
+            "check format and baud, and what the device is set to send"
+            + (f" ({refused})" if refused else ""),
+        )
+
+    def _misdirected(self) -> str:
+        """Return what to say when datagrams come, from others than the peers."""
+        assert isinstance(self.source.transport, UdpTransport)
+        peers = ", ".join(sorted(self.source.transport.peers))
+        return (
+            f"source '{self.source.uri}' takes nothing: it got {self._strangers()}, which is not "
+            f"among the peers ({peers}): check peers"
         )

@@ -29,6 +29,7 @@ from .magnetic import FieldOutput
 from .messages import imu_values, new_imu, set_imu_values, set_time, to_ns
 from .parameters import declare, group
 from .player import Player, Sample, in_order, wait_to_begin
+from .refusals import Refusals, counts, in_words
 from .shell import Graph, Program, run_nodes
 from .stamper import Stamper
 from .suspicion import UnitSuspicion
@@ -91,7 +92,7 @@ class ImuAdapterNode(Node):
         self.player: Player | None = None
         self.device: Device | None = None
         self.check = SensorCheck(group(Checks, values, "checks."))
-        self._rates = Rates()
+        self._rates, self._refusals = Rates(), Refusals()
         self._suspicion = UnitSuspicion("this sensor", self.get_logger().warning)
         self._depth = group(InputOptions, values, "input.").depth
         self._out = watched_publisher(self, Imu, "imu/data_raw", qos.sensor(self._depth))
@@ -208,6 +209,7 @@ class ImuAdapterNode(Node):
         sensed = self._conversion.sensed(values)
         if not np.isfinite(sensed).all():
             self.counters["not_finite"] += 1
+            self.check.interrupt()
             return None
         force, rate = tuple(sensed[:3].tolist()), tuple(sensed[3:].tolist())
         return sensed if self.check.accept(Sensed(header_ns, force, rate)) else None
@@ -237,8 +239,19 @@ class ImuAdapterNode(Node):
         if error is not None:
             self.done.set_exception(error)
             return
-        self.get_logger().info(f"played {self.counters['relayed']} samples, the file is over")
+        log, said = self.get_logger(), f"played {self.counters['relayed']} samples"
+        if refused := in_words(counts(self._outcomes())):
+            log.warning(f"{said}, the file is over; what was not: {refused}")
+        else:
+            log.info(f"{said}, the file is over")
         self.done.set_result(True)
+
+    def _outcomes(self) -> dict[str, int]:
+        """Return what became of the samples, in the counters of a device."""
+        if self.device is not None:
+            return self.device.source.counters
+        seen = {**self.counters, **self.check.counters}
+        return {**seen, "samples": self.check.counters["seen"]}
 
     def _collect(self, status: Status) -> None:
         rates = self._rates.since_last(self.counters)
@@ -255,11 +268,13 @@ class ImuAdapterNode(Node):
         status.values["sampling rate (Hz)"] = self.check.rate_hz
         self.stamper.describe(status)
         if rates["not_finite"] > 0:
-            status.note(WARN, "samples that are not finite are refused")
+            said = f"samples that are not finite are refused: {self.counters['not_finite']} so far"
+            status.note(WARN, said)
         for sentence in self._suspicion.said:
             status.note(WARN, sentence)
         for sentence in self.check.findings:
-            status.note(WARN, sentence)
+            status.note(WARN, sentence, " ".join(sentence.split()[:2]))
+        self._refusals.describe(self._outcomes(), status)
 
     def destroy_node(self) -> None:
         """Stop playing or reading, then destroy the node."""

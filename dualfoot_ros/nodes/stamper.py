@@ -53,11 +53,11 @@ class Stamper:
         for foot, state in self.states.items():
             status.values |= clock_values(foot, state)
             if state.phase == "refused":
-                status.note(ERROR, self._refusal(foot, state))
+                status.note(ERROR, self._refusal(foot, state), f"clock {foot} refused")
             elif state.phase == "settling":
                 status.note(WARN, self._settling(foot, state))
             elif self._in_step(state):
-                status.note(WARN, IN_STEP.format(foot=foot, state=state))
+                status.note(WARN, IN_STEP.format(foot=foot, state=state), f"clock {foot} in step")
         status.values |= {f"clock {name}": n for name, n in self._stamps.counters.items()}
         status.values |= self.counters
         if self.counters["not_stamped"] > self._reported:

@@ -5,11 +5,13 @@ import subprocess
 import sys
 import threading
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
 from dualfoot_ros.drivers import Source, State
+from dualfoot_ros.drivers.senders import MAX_SENDERS, Senders
 
 from .frames import PERIOD_US, frame, mcu, stream, truth, ximu3
 from .links import Collector, PluggedDevice, held, settle
@@ -102,7 +104,8 @@ def test_udp_from_another_process_keeps_the_devices_clock_and_adds_the_hosts(nam
         assert sender.wait(10) == 0
     sender.stdout.close()
     assert_clocks_are_kept_apart(collector.samples, before_ns)
-    assert source.transport.senders == {"127.0.0.1"}
+    ((sender, count),) = source.senders.samples.items()
+    assert sender.startswith("127.0.0.1:") and count == 100
 
 
 def assert_clocks_are_kept_apart(samples, before_ns):
@@ -163,18 +166,41 @@ def test_datagrams_of_others_than_the_peers_are_counted_and_dropped():
             assert collector.wait_for_samples(1)
     assert [sample.counter for sample in collector.samples] == [2]
     assert source.counters["foreign"] == 1
+    assert source.transport.strangers == {"127.0.0.1": 1}
 
 
-def test_two_devices_on_one_udp_port_are_noticed():
+@pytest.mark.parametrize("hosts", [("127.0.0.2", "127.0.0.3"), ("127.0.0.1", "127.0.0.1")])
+def test_two_devices_on_one_udp_port_are_noticed(hosts):
     collector = Collector()
-    with open_source("udp://127.0.0.1:0?format=ximu3", collector) as source:
+    with open_source("udp://127.0.0.1:0?format=ximu3", collector) as source, ExitStack() as open_:
         assert collector.wait_for_state(State.CONNECTED)
-        for host in ("127.0.0.2", "127.0.0.3"):
-            with socket.socket(type=socket.SOCK_DGRAM) as out:
-                out.bind((host, 0))
-                out.sendto(ximu3(1), ("127.0.0.1", source.transport.port))
-        assert collector.wait_for_samples(2)
-    assert source.transport.senders == {"127.0.0.2", "127.0.0.3"}
+        out = [open_.enter_context(socket.socket(type=socket.SOCK_DGRAM)) for _ in hosts]
+        for each, host in zip(out, hosts, strict=True):
+            each.bind((host, 0))
+        for k in range(6):
+            out[k % 2].sendto(ximu3(k), ("127.0.0.1", source.transport.port))
+        assert collector.wait_for_samples(6)
+        names = {"{}:{}".format(*each.getsockname()) for each in out}
+    assert source.senders.samples == dict.fromkeys(names, 3)
+    assert source.senders.returns == dict.fromkeys(names, 2)
+
+
+def test_a_device_that_starts_again_with_another_port_is_not_two():
+    senders = Senders()
+    for name in ("a:1", "a:1", "a:2", "a:2", "a:3"):
+        senders.see(name, 1)
+    assert set(senders.returns.values()) == {0}
+
+
+def test_no_more_than_a_few_senders_are_kept():
+    senders = Senders()
+    for k in range(1000):
+        senders.see(f"a:{k}", 1)
+    assert (
+        set(senders.samples)
+        == set(senders.returns)
+        == {f"a:{k}" for k in range(1000 - MAX_SENDERS, 1000)}
+    )
 
 
 def test_a_file_is_read_to_its_end(tmp_path):

@@ -76,6 +76,7 @@ def test_a_skew_beyond_the_limit_is_reported_with_the_limit_and_no_stamp_is_give
     assert set(found) == {None} and stamper.counters["not_stamped"] > 0
     assert status.level == ERROR
     assert "left foot is off by 15" in status.message and "beyond 10000 ppm" in status.message
+    assert status.logged["clock left refused"] == (ERROR, status.message)
 
 
 def test_a_time_that_no_message_can_hold_is_refused_and_counted():

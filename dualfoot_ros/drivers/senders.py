@@ -1,0 +1,32 @@
+"""Whose samples come on a port that takes what anybody sends."""
+
+from __future__ import annotations
+
+MAX_SENDERS = 16
+
+
+class Senders:
+    """Counts samples by the address they came from, those of the newest ``MAX_SENDERS``.
+
+    ``returns`` counts how often an address delivered again after another one had.  Devices that
+    share a port take turns and both return; one that starts again with a new port does not.
+    """
+
+    def __init__(self) -> None:
+        """Start with none."""
+        self.samples: dict[str, int] = {}
+        self.returns: dict[str, int] = {}
+        self._last = ""
+
+    def see(self, sender: str, samples: int) -> None:
+        """Take the number of samples that a datagram of ``sender`` brought."""
+        if sender == self._last:
+            self.samples[sender] += samples
+            return
+        self._last = sender
+        known = sender in self.samples
+        count, returns = self.samples.pop(sender, 0), self.returns.pop(sender, -1)
+        if not known and len(self.samples) >= MAX_SENDERS:
+            oldest = next(iter(self.samples))
+            del self.samples[oldest], self.returns[oldest]
+        self.samples[sender], self.returns[sender] = count + samples, returns + 1

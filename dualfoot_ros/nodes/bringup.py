@@ -33,7 +33,7 @@ Sensors = ReplayNode | ImuAdapterNode
 PROGRAM = Program(
     "bringup",
     "Start imu_adapter for both feet (or replay), time_sync and fusion in one process.",
-    "  ros2 run dualfoot_ros bringup --ros-args --params-file config/bringup.yaml\n"
+    "  ros2 run dualfoot_ros bringup --ros-args --params-file config/nodes/bringup.yaml\n"
     "  ros2 run dualfoot_ros bringup --ros-args -p bag:=bags/demo -p record:=result",
     tuple(node_specs("bringup")),
 )

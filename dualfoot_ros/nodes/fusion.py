@@ -10,7 +10,6 @@ from rclpy.node import Node
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
-from ..calibration import for_feet
 from ..core import DualFootTracker, ImuPair, TrackerConfig
 from ..core.config import all_specs
 from ..core.trajectory import FEET
@@ -20,6 +19,7 @@ from ..options import Path as PathOptions
 from ..timing import Aligner, ClockModel, Stamping, Sync
 from . import qos
 from .apart import Apart
+from .corrections import of_feet
 from .diagnostics import Reporter
 from .health import Health
 from .magnetic import FieldInputs
@@ -73,7 +73,7 @@ class FusionNode(Node):
         self.stamper = Stamper(self._stamping, group(ClockModel, values, "clock."))
         path = group(PathOptions, values, "path.")
         self.outputs = Outputs(self, frames, path, config.noise.gyro, own.publish_tf)
-        self._calibration = for_feet([own.calibration] if own.calibration else [])
+        self._calibration = of_feet(own.calibration)
         self._listen(group(InputOptions, values, "input."), own.sync)
         self._obey(frames.odom)
         self.health = Health(self, own.sync)

@@ -11,7 +11,6 @@ from rclpy.node import Node
 from rclpy.task import Future
 from sensor_msgs.msg import Imu
 
-from ..calibration import SensorCalibration, sensor_calibration
 from ..core.mounting import Vector
 from ..core.series import FieldSeries, FloatArray, ImuSeries
 from ..core.trajectory import FEET
@@ -23,6 +22,7 @@ from ..options import Input as InputOptions
 from ..timing import ClockModel, Stamping
 from . import qos, sources
 from .conversion import Conversion
+from .corrections import FOOT_UNKNOWN, of_sensor
 from .device import Device
 from .diagnostics import WARN, Rates, Reporter, Status
 from .magnetic import FieldOutput
@@ -79,13 +79,16 @@ class ImuAdapterNode(Node):
         super().__init__("imu_adapter", **options)
         values = declare(self, node_specs("imu_adapter"))
         self._options = group(AdapterOptions, values)
-        self._foot = self._named_foot()
+        named = self._named_foot()
+        self._foot = named or FEET[0]
         self._conversion = Conversion(
             group(Mounting, values, "mounting."),
             group(Units, values, "units."),
             group(Covariance, values, "covariance."),
-            self._calibration(),
+            of_sensor(self._options.calibration, named),
         )
+        if named is None:
+            self.get_logger().warning(f"taken for the {self._foot} foot, as {FOOT_UNKNOWN}")
         self.counters = {"relayed": 0, "not_finite": 0}
         self.done: Future = Future()
         self.watch: Watch | None = None
@@ -160,16 +163,12 @@ class ImuAdapterNode(Node):
             {self._foot: policy, f"{self._foot}_offset": self._options.stamp_offset}
         )
 
-    def _calibration(self) -> SensorCalibration | None:
-        if not self._options.calibration:
-            return None
-        return sensor_calibration(self._options.calibration, self._foot)
-
-    def _named_foot(self) -> str:
+    def _named_foot(self) -> str | None:
+        """Return the foot that parameter or namespace name, None when neither does."""
         if self._options.foot != "auto":
             return self._options.foot
         named = [foot for foot in FEET if foot in self.get_namespace().split("/")]
-        return named[0] if named else "left"
+        return named[0] if named else None
 
     def _relay(self, message: Imu) -> None:
         if self._options.frame_id:

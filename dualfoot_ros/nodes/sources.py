@@ -12,12 +12,13 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from ..core.errors import ConfigError
 from ..core.series import ImuSeries
-from ..drivers import parse_uri
+from ..drivers import FORMATS, parse_uri
 from ..recording import RecordingError, read_bag
 from .shell import in_one_line
 
 RECORDED = "file"
 DEVICE = "device"
+BAGS = (".mcap", ".db3")
 ALLOWED = (
     "topic:///NAME or file://PATH (the folder of a bag, a .mcap, a .db3, an Xsens DOT .csv), or a "
     "device, as in serial:///dev/ttyUSB0?baud=921600&format=mcu, udp://:8000?format=ximu3, "
@@ -90,6 +91,11 @@ def load(source: Source, foot: str) -> ImuSeries:
     path = Path(source.target).expanduser()
     if path.suffix.lower() == ".csv":
         return _from_csv(path)
+    if path.is_file() and path.suffix not in BAGS:
+        raise RecordingError(
+            f"'{path}' is no bag ({', '.join(BAGS)} or a folder) and no .csv; for bytes captured "
+            f"from a device add ?format= with one of {', '.join(FORMATS)}"
+        )
     series = read_bag(path).imu(foot)
     if series is None or not len(series):
         raise RecordingError(f"bag '{path}' has no samples on /{foot}/imu/data_raw")

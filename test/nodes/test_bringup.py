@@ -1,3 +1,4 @@
+import re
 import signal
 from pathlib import Path
 
@@ -5,6 +6,7 @@ import numpy as np
 import pytest
 from drivers import frames
 
+from dualfoot_ros.nodes import bringup, fusion
 from dualfoot_ros.recording import list_topics, read_bag
 
 
@@ -33,6 +35,14 @@ def test_a_recording_that_is_interrupted_is_a_whole_bag(program, walk_bag, tmp_p
     left = read_bag(target).left
     assert left is not None and len(left) > 50
     assert np.isfinite(left.specific_force).all()
+
+
+def test_the_files_that_help_names_are_there():
+    named = re.findall(
+        r"--params-file (\S+)", f"{bringup.PROGRAM.examples} {fusion.PROGRAM.examples}"
+    )
+    root = Path(__file__).resolve().parents[2]
+    assert named and all((root / name).exists() for name in named)
 
 
 def test_an_existing_recording_is_not_overwritten(program, walk_bag, tmp_path):

@@ -9,6 +9,7 @@ from dualfoot_ros.calibration import Calibration, CalibrationError, SensorCalibr
 from dualfoot_ros.core.errors import DualFootError
 from dualfoot_ros.nodes.conversion import Conversion
 from dualfoot_ros.nodes.fusion import FusionNode
+from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.messages import imu_values
 from dualfoot_ros.options import Covariance, Mounting, Units
 
@@ -50,8 +51,38 @@ def test_a_calibration_that_cannot_be_used_stops_the_node_with_its_sentence(benc
     bad.write_text("format: something\n")
     with pytest.raises(CalibrationError, match="format is 'something'"):
         bench.add(FusionNode, {"calibration": str(bad)})
-    with pytest.raises((DualFootError, OSError), match=r"no\.yaml"):
+    with pytest.raises(DualFootError, match=r"parameter 'calibration' is '.*no\.yaml': No such"):
         bench.add(FusionNode, {"calibration": str(tmp_path / "no.yaml")})
+
+
+@pytest.mark.parametrize("path", ["both", "one foot", "no.yaml"])
+def test_an_adapter_that_is_on_no_known_foot_does_not_take_the_calibration_of_one(
+    bench, both, tmp_path, path
+):
+    only = Calibration().with_triad("left", "accelerometer", Triad(BIAS, MATRIX))
+    only.save(tmp_path / "left.yaml")
+    given = {"both": both, "one foot": str(tmp_path / "left.yaml"), "no.yaml": path}[path]
+    said = "is 'no.yaml': No such file" if path == "no.yaml" else "set foot to left or right"
+    with pytest.raises(CalibrationError, match=f"parameter 'calibration'.*{said}"):
+        bench.add(ImuAdapterNode, {"calibration": given})
+
+
+def test_an_adapter_on_no_known_foot_takes_a_calibration_without_one_and_says_so(
+    bench, tmp_path, capfd
+):
+    found = Calibration().with_triad("sensor", "accelerometer", Triad(BIAS, MATRIX))
+    found.save(tmp_path / "sensor.yaml")
+    node = bench.add(ImuAdapterNode, {"calibration": str(tmp_path / "sensor.yaml")})
+    expected = np.concatenate([MATRIX @ (STANDING[:3] - BIAS), STANDING[3:]])
+    np.testing.assert_allclose(node._conversion.values(STANDING), expected)
+    assert "taken for the left foot" in capfd.readouterr().err
+
+
+def test_an_adapter_takes_the_foot_of_its_parameter(bench, both, capfd):
+    node = bench.add(ImuAdapterNode, {"calibration": both, "foot": "right"})
+    expected = np.concatenate([STANDING[:3], STANDING[3:] - 0.1 * BIAS])
+    np.testing.assert_allclose(node._conversion.values(STANDING), expected, atol=1e-9)
+    assert "taken for" not in capfd.readouterr().err
 
 
 def test_fusion_corrects_each_foot_before_anything_else(bench, both, monkeypatch):

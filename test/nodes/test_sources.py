@@ -74,6 +74,12 @@ def test_one_foot_of_a_bag_is_a_source(walk_bag):
     assert (loaded.stamp_ns == expected.stamp_ns).all()
 
 
+def test_captured_bytes_without_a_format_are_refused_with_the_formats(tmp_path):
+    (tmp_path / "cap_mcu.bin").write_bytes(b"bytes")
+    with pytest.raises(RecordingError, match=r"cap_mcu\.bin.*add \?format= with one of mcu, "):
+        load(parse(f"file://{tmp_path}/cap_mcu.bin"), "left")
+
+
 def test_a_missing_file_is_named():
     with pytest.raises(RecordingError, match=r"there is no file '/no/such\.csv'"):
         load(parse("file:///no/such.csv"), "left")

@@ -89,7 +89,7 @@ def _check_stamps(series: ImuSeries, name: str) -> None:
     interval = float(np.median(forward)) * 1e-9
     if not RATES[0] <= 1.0 / interval <= RATES[1]:
         raise CalibrationError(
-            f"'{name}': by its stamps it was sampled at {1.0 / interval:.4g} Hz (median interval "
+            f"'{name}': by its stamps it was sampled at {1.0 / interval:.6g} Hz (median interval "
             f"{interval:.3g} s); allowed is {RATES[0]:g} to {RATES[1]:g} Hz, so check the unit of "
             "the stamps (SampleTimeFine of an export is in microseconds)"
         )

@@ -18,7 +18,7 @@ from ..drivers.udp import UdpTransport
 from ..options import Input as InputOptions
 from ..timing import Counter, Unwrapper
 from .diagnostics import ERROR, OK, WARN, Status
-from .refusals import REFUSED, in_words, increases
+from .refusals import MIXED, REFUSED, in_words, increases
 from .watch import Complaint, silence
 
 Take = Callable[[int | None, int, FloatArray, Vector | None], None]
@@ -162,7 +162,7 @@ class Device:
                 WARN,
                 f"{len(back)} devices send to one port and their samples mix: {names}; give each "
                 "a port of its own, or list the address of the right one in peers",
-                "senders",
+                MIXED,
             )
 
     def _strangers(self) -> str:

@@ -18,6 +18,8 @@ REFUSED = {
 }
 WORDS = {"lost": "lost on the way", **REFUSED}
 GARBAGE = "garbage_bytes"
+MIXED = "senders"
+"""The kind of the finding that several devices share a port."""
 
 
 def counts(counters: Mapping[str, int]) -> dict[str, int]:
@@ -64,6 +66,6 @@ class Refusals:
         much = {n: found[n] for n in WORDS if found[n] >= max(LEAST, SHARE * total)}
         if found[GARBAGE] >= max(LEAST_BYTES, SHARE * found["bytes"]):
             much[GARBAGE] = found[GARBAGE]
-        if much:
+        if much and MIXED not in status.logged:  # between two numberings there are only holes
             said = f"since the last report, of {total} samples: {_listed(much)}"
             status.note(WARN, said, f"refused {', '.join(much)}")

@@ -19,6 +19,7 @@ from .shell import in_one_line
 RECORDED = "file"
 DEVICE = "device"
 BAGS = (".mcap", ".db3")
+CAPTURED = tuple(name for name in FORMATS if name != "dot")  # that comes over BLE only
 ALLOWED = (
     "topic:///NAME or file://PATH (the folder of a bag, a .mcap, a .db3, an Xsens DOT .csv), or a "
     "device, as in serial:///dev/ttyUSB0?baud=921600&format=mcu, udp://:8000?format=ximu3, "
@@ -94,7 +95,7 @@ def load(source: Source, foot: str) -> ImuSeries:
     if path.is_file() and path.suffix not in BAGS:
         raise RecordingError(
             f"'{path}' is no bag ({', '.join(BAGS)} or a folder) and no .csv; for bytes captured "
-            f"from a device add ?format= with one of {', '.join(FORMATS)}"
+            f"from a device add ?format= with one of {', '.join(CAPTURED)}"
         )
     series = read_bag(path).imu(foot)
     if series is None or not len(series):

@@ -199,6 +199,19 @@ def test_a_stuck_sensor_is_refused_for_what_it_spoils_and_a_warning_for_the_rest
     assert "noise.accelerometer" not in captured.out
 
 
+def test_samples_that_are_not_finite_are_counted_beside_the_calibration(six, tmp_path, capsys):
+    series = resting(SIX[0], 10.0, bias=BIAS)
+    series.specific_force[100:103] = np.nan
+    path = str(export(tmp_path / "Axu.csv", series))
+    assert main(["calibrate", "accelerometer", path, *six[1:]]) == 0
+    assert "warning: 'Axu': 3 of 600 samples are not finite" in capsys.readouterr().err
+
+
+def test_a_calibration_is_added_to_a_file_only(six, tmp_path, capsys):
+    assert main(["calibrate", "gyro", six[0], "-o", str(tmp_path)]) == 2
+    assert f"'{tmp_path}' is there and is no ordinary file" in capsys.readouterr().err
+
+
 def test_parameters_replace_a_file_only_when_told_to_and_nothing_but_a_file(six, tmp_path, capsys):
     mine, pipe, output = tmp_path / "mine.yaml", tmp_path / "pipe", tmp_path / "gyro.yaml"
     mine.write_text("mine: true\n")

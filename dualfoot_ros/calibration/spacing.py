@@ -95,7 +95,7 @@ class SpacingFit:
 
 
 def fit_spacing(trajectory: Trajectory, config: TrackerConfig | None = None) -> SpacingFit:
-    """Return what a walk tells; ``trajectory`` is of method ``zupt`` with ``config``.
+    """Return what a walk tells; ``trajectory`` is of ``config``, which is a ``free_config``.
 
     Raises
     ------

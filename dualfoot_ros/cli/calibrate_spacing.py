@@ -40,7 +40,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--overwrite", action="store_true", help="replace an existing FILE.yaml")
     parser.add_argument(
-        "--config", metavar="YAML", help="parameter file or preset for the tracker"
+        "--config",
+        metavar="YAML",
+        help="parameter file or preset for the tracker; what counts here are gravity, alignment, "
+        "stance and zupt",
     )
     parser.add_argument(
         "--set",
@@ -60,11 +63,11 @@ def run(args: argparse.Namespace) -> int:
     from ..evaluation import track
     from ..presets import load_config
     from ..recording.atomic import check_file
+    from ..recording.stances import free_config
 
     if args.output is not None:
         check_file(args.output, overwrite=args.overwrite)
-    overrides = {**dict(setting(text) for text in args.set), "method": "zupt"}
-    config = load_config(args.config, overrides)
+    config = free_config(load_config(args.config, dict(setting(text) for text in args.set)))
     fit = fit_spacing(track(load_usable(args.bag, args), config), config)
     if fit.swapped:
         raise CalibrationError(_swapped(fit))

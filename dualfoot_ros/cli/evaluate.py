@@ -143,16 +143,16 @@ def _with_reference(recording: Recording, path: str | None) -> Recording:
 def _objections(
     recording: Recording, config: TrackerConfig, trajectory: Trajectory
 ) -> Iterator[str]:
-    """Yield what tracks without a constraint between the feet show to be wrong."""
+    """Yield what tracks with nothing between the feet show to be wrong."""
     from ..evaluation import track
+    from ..recording.stances import free_config
     from ..recording.walk_checks import walk_findings
 
     if config.method == "rigid_pair":  # both sensors are on one shoe
         return
-    free = trajectory
-    if config.method != "zupt":
-        free = track(recording, replace(config, method="zupt"))
-    for finding in walk_findings(free):
+    free = free_config(config)
+    tracks = trajectory if config == free else track(recording, free)
+    for finding in walk_findings(tracks):
         yield f"warning: {finding.sentence}"
 
 

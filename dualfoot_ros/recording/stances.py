@@ -21,6 +21,22 @@ class Stances:
     distance_m: float
 
 
+def free_config(config: TrackerConfig) -> TrackerConfig:
+    """Return what tracks the feet with nothing between them, for those who compare the tracks.
+
+    Only what finds stands and stances, and where the sensors sit, is taken over.  A constraint or
+    an aid would bend the tracks (a field turns with each sensor's own iron), and so would another
+    noise or first heading: how far two tracks drift apart is known of the default filter alone.
+    """
+    return TrackerConfig(
+        method="zupt",
+        gravity=config.gravity,
+        alignment=config.alignment,
+        stance=config.stance,
+        zupt=config.zupt,
+    )
+
+
 def free_tracks(left: ImuSeries, right: ImuSeries, sync: Sync | None = None) -> Trajectory:
     """Track both feet without any constraint between them.
 

@@ -15,7 +15,7 @@ LEAST_PASSINGS = 8
 
 
 def walk_findings(trajectory: Trajectory) -> Iterator[Finding]:
-    """Yield the objections to a walk tracked without constraints (method ``zupt``).
+    """Yield the objections to a walk tracked with :func:`~.stances.free_config`.
 
     Which foot is on the left can be seen in turns only: there the outer foot makes the longer
     way.  Without turns, or where the tracks have drifted too far, nothing is said.

@@ -10,8 +10,9 @@ from calibration.rest import SIX, export, joined, moving, resting
 
 from dualfoot_ros.calibration import Calibration
 from dualfoot_ros.cli.main import main
+from dualfoot_ros.core import ImuSeries
 from dualfoot_ros.recording import Recording, write_bag
-from dualfoot_ros.simulation import WalkConfig, simulate
+from dualfoot_ros.simulation import MagnetometerConfig, WalkConfig, simulate
 
 BIAS = (0.1, -0.05, 0.2)
 
@@ -144,6 +145,49 @@ def test_exchanged_feet_are_said_by_calibrate_info_and_evaluate(bags, capsys):
     assert any("exchanged" in note for note in notes)
     assert main(["info", bags["eight"]]) == 0
     assert "exchanged" not in capsys.readouterr().out
+
+
+@pytest.fixture(scope="module")
+def doubtful(tmp_path_factory):
+    """Return walks as bags: a lap with iron on the sensors, an eight with them turned outwards."""
+    folder = tmp_path_factory.mktemp("doubtful")
+    lap, iron = WalkConfig(route="track", rate=60.0, standing=5.0), MagnetometerConfig(hard_iron=3)
+    made = simulate(lap, seed=2, magnetometer=iron)
+    write_bag(folder / "lap", Recording(made.left, made.right))
+    eight = simulate(WalkConfig(route="figure_eight"), seed=1)
+    write_bag(folder / "outwards", Recording(turned(eight.left, 0.3), turned(eight.right, -0.3)))
+    return {name: str(folder / name) for name in ("lap", "outwards")}
+
+
+def turned(series, yaw):
+    """Return the samples of a sensor that was turned on its foot by ``yaw`` (rad)."""
+    c, s = np.cos(yaw), np.sin(yaw)
+    rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    force, rate = series.specific_force @ rotation, series.angular_rate @ rotation
+    return ImuSeries(series.stamp_ns, force, rate)
+
+
+@pytest.mark.parametrize(
+    ("walk", "parameters"),
+    [
+        ("lap", ["--set", "aids.magnetic_heading=true"]),
+        ("lap", ["--config", "liu2023"]),
+        ("outwards", ["--set", "heading.source=sensor"]),
+    ],
+    ids=["a field with iron", "too little noise", "headings of the sensors"],
+)
+def test_tracks_that_parameters_bend_are_no_exchanged_feet(doubtful, capsys, walk, parameters):
+    assert main(["evaluate", doubtful[walk], *parameters, "--json"]) == 0
+    assert "exchanged" not in str(json.loads(capsys.readouterr().out)["notes"])
+    assert main(["calibrate", "spacing", doubtful[walk], *parameters]) == 0
+
+
+@pytest.mark.parametrize(
+    "parameters", [["--config", "liu2023"], ["--set", "heading.source=sensor"]], ids=lambda p: p[1]
+)
+def test_exchanged_feet_are_said_whatever_the_parameters(bags, capsys, parameters):
+    assert main(["evaluate", bags["exchanged"], *parameters, "--json"]) == 0
+    assert "seem to be exchanged" in str(json.loads(capsys.readouterr().out)["notes"])
 
 
 @pytest.mark.parametrize(

@@ -2,41 +2,31 @@
 
 A foot does what the other did half a gait cycle before, so the correlation of the feet has two
 equal peaks half a cycle before and after the true offset, and the offset is their middle.  This
-asks nothing of the sensor's attitude, bias or place on the shoe.  Two things are assumed: that a
-step of the left foot lasts as long as one of the right one (the error is half the difference,
-some milliseconds), and that the walk has a start, an end, a stop or a change of pace: a walk of
-equal cycles without end fits as well one cycle later.  How much worse the next best middle fits
-is the confidence.
+asks nothing of the sensor's attitude, bias or place on the shoe.  What is assumed is that a step
+of the left foot lasts as long as one of the right one (the error is half the difference, some
+milliseconds).  Which cycle is told by two things: how well the starts, stops and changes of pace
+of the whole recordings fit, and how evenly the feet then walk in turn (``evenness``).  By how much
+both together prefer one cycle is the confidence, and how alike and even the feet are limits it.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import replace
 
 import numpy as np
 
-from ...core.series import ImuSeries
+from ...core.series import FloatArray, ImuSeries
 from ..errors import TimingError
-from .correlation import STEP_S, Correlation, Signal, correlate, signal_of
+from .choice import LARGEST_SKEW, check, choose, doubts, walking
+from .correlation import STEP_S, Signal, correlate, signal_of
+from .evenness import LEAST_SPAN_S, middles_of_windows
+from .middles import CYCLE_S, Middle, highest_middles
 from .result import Offset
 
-CYCLE_S = (0.6, 2.5)  # gait cycles that are looked for
-LEAST_PEAK = 0.6  # correlation below which these are not two feet walking
-LEAST_CYCLES = 3.0
 ASYMMETRY_S = 0.008  # what left and right steps differ by, measured on walks with one clock
 WINDOW_S = 20.0
-LEAST_SPAN_S = 60.0  # of the windows, to tell a skew
-EVEN_MARGIN = 0.25  # lead over the next best, in cycles, that is a confidence of one half
-
-
-@dataclass(frozen=True)
-class Middle:
-    """Two neighbouring peaks: the lag between them, their distance (the cycle), mean height."""
-
-    lag_s: float
-    cycle_s: float
-    height: float
+SMEAR_S = 0.08  # that a skew may cause over the recording before it is looked for
+COARSE = 4  # steps of the grid in one when looking for the skew
 
 
 def offset_by_gait(left: ImuSeries, right: ImuSeries) -> Offset:
@@ -47,36 +37,39 @@ def offset_by_gait(left: ImuSeries, right: ImuSeries) -> Offset:
     TimingError
         When a foot does not walk, or the feet do not fit together at any offset.
     """
-    feet = [_strides("left", left), _strides("right", right)]
-    correlation = correlate(*feet)
-    best, second = _best_middles(correlation)
-    walked_s = min(_walking_s(foot) for foot in feet)
-    cycles = walked_s / best.cycle_s
-    if best.height < LEAST_PEAK or cycles < LEAST_CYCLES:
-        raise TimingError(
-            f"the feet do not walk together: best agreement {best.height:.2f} over "
-            f"{cycles:.1f} gait cycles; needed are {LEAST_PEAK} and {LEAST_CYCLES:g}; "
-            "is this one walk, with a sensor on each foot?"
-        )
-    lead = (best.height - second) * cycles
-    windows = _windows(feet[0], feet[1], best)
     middle_ns = (int(right.stamp_ns[0]) + int(right.stamp_ns[-1])) // 2
-    offset_s, skew, skew_std, std_s = _line(windows, best.lag_s, middle_ns)
+    one, two = recorded = _strides("left", left), _strides("right", right)
+    slope = _coarse_slope(one, two)
+    if slope:  # sharpen it, so that the correlation of the whole is sharp
+        two = _strides("right", _scaled(right, slope, middle_ns))
+        first = highest_middles(correlate(one, two), 1)[0]
+        slope = (1.0 + slope) * (1.0 + _line(_windows(one, two, first), first.lag_s, 0)[1]) - 1.0
+        two = _strides("right", _scaled(right, slope, middle_ns))
+    walked_s = min(STEP_S * float(np.count_nonzero(walking(foot))) for foot in (one, two))
+    choice = choose(one, two, correlate(one, two), walked_s)
+    best, cycles = choice.middle, walked_s / choice.middle.cycle_s
+    check(choice, cycles, *recorded)
+    windows = _windows(one, two, best)
+    offset_s, rest, slope_std, std_s = _line(windows, best.lag_s, middle_ns)
+    slope = (1.0 + slope) * (1.0 + rest) - 1.0
     return Offset(
         method="motion",
         offset_ns=round(offset_s * 1e9),
         center_ns=middle_ns,
-        skew_ppm=0.0 - 1e6 * skew,
-        skew_known=skew_std is not None,
+        skew_ppm=1e6 * (1.0 / (1.0 + slope) - 1.0) if slope else 0.0,
+        skew_known=slope_std is not None,
         std_s=float(np.hypot(std_s, ASYMMETRY_S)),
-        confidence=lead / (lead + EVEN_MARGIN),
+        confidence=choice.confidence,
         detail={
             "agreement": best.height,
-            "second": second,
+            "second": choice.second,
             "cycle_s": best.cycle_s,
             "cycles": cycles,
-            "skew_std_ppm": float("nan") if skew_std is None else float(1e6 * skew_std),
+            "unevenness": choice.uneven,
+            "margin": choice.margin,
+            "skew_std_ppm": float("nan") if slope_std is None else float(1e6 * slope_std),
         },
+        notes=doubts(choice, *recorded),
     )
 
 
@@ -93,76 +86,46 @@ def _strides(foot: str, series: ImuSeries) -> Signal:
     return signal
 
 
-def _walking_s(foot: Signal) -> float:
-    """Return how long the foot walked: where a second's mean is a fifth of a brisk one, s."""
-    second = np.ones(round(1.0 / STEP_S)) * STEP_S
-    mean = np.convolve(foot.values, second, mode="same")
-    brisk = float(np.quantile(mean, 0.95))
-    return float(np.count_nonzero(mean > max(0.2 * brisk, 0.5)) * STEP_S)
+def _scaled(series: ImuSeries, slope: float, middle_ns: int) -> ImuSeries:
+    """Return the series on a clock that runs ``slope`` faster, and agrees at ``middle_ns``."""
+    extra = np.rint(slope * (series.stamp_ns - middle_ns)).astype(np.int64)
+    return replace(series, stamp_ns=series.stamp_ns + extra)
 
 
-def _best_middles(correlation: Correlation) -> tuple[Middle, float]:
-    """Return the best middle of two peaks, and the height of the best at another cycle."""
-    from scipy.signal import find_peaks
+def _coarse_slope(left: Signal, right: Signal) -> float:
+    """Return the slope of the right clock with which the whole recordings agree best.
 
-    value = correlation.value
-    found, _ = find_peaks(
-        value, height=0.5 * float(value.max()), distance=round(CYCLE_S[0] / STEP_S)
-    )
-    peaks = [correlation.peak(int(i)) for i in found]
-    middles = [
-        Middle(0.5 * (one[0] + two[0]), two[0] - one[0], 0.5 * (one[1] + two[1]))
-        for one, two in pairwise(peaks)
-        if CYCLE_S[0] <= two[0] - one[0] <= CYCLE_S[1]
-    ]
-    if not middles:
-        raise TimingError("no gait is seen in the recordings: no two peaks of agreement")
-    best = max(middles, key=lambda m: m.height)
-    others = [m.height for m in middles if m is not best]
-    return best, max(others, default=0.0)
+    Zero for recordings too short for a skew to matter.
+    """
+    span_s = STEP_S * min(len(left.values), len(right.values))
+    count = int(np.ceil(LARGEST_SKEW * span_s / SMEAR_S)) if span_s >= LEAST_SPAN_S else 0
+    slopes = np.arange(-count, count + 1) * SMEAR_S / span_s
+    if count == 0:
+        return 0.0
+    one = Signal(0, left.values[::COARSE])
+    at = np.arange(len(right.values))[::COARSE]
 
+    def height(slope: float) -> float:
+        scaled = np.interp(at, np.arange(len(right.values)) * (1.0 + slope), right.values)
+        return float(correlate(one, Signal(0, scaled)).value.max())
 
-def _windows(left: Signal, right: Signal, whole: Middle) -> list[tuple[float, float]]:
-    """Return (right stamp in s since 0 of the epoch's start, lag in s) of every window."""
-    size, reach = round(WINDOW_S / STEP_S), round(2.0 * whole.cycle_s / STEP_S)
-    out = []
-    for begin in range(0, len(left.values) - size // 2, size):
-        part = left.part(begin, begin + size)
-        at = (part.start_ns - right.start_ns) * 1e-9 - whole.lag_s
-        start = round(at / STEP_S)
-        if start + size < 0 or start > len(right.values):
-            continue
-        other = right.part(start - reach, max(start + size + reach, 0))
-        if min(len(part.values), len(other.values)) < size // 2 or not _walks(part, left):
-            continue
-        lag = _middle_near(correlate(part, other), whole)
-        if lag is not None:
-            out.append((at + 0.5 * WINDOW_S + right.start_ns * 1e-9, lag))
-    return out
+    return float(max(slopes.tolist(), key=lambda s: (height(s), -abs(s))))
 
 
-def _walks(part: Signal, whole: Signal) -> bool:
-    return float(part.values.mean()) > 0.5 * float(whole.values.mean())
-
-
-def _middle_near(correlation: Correlation, whole: Middle) -> float | None:
-    half = 0.5 * whole.cycle_s
-    one = correlation.maximum_near(whole.lag_s - half, 0.5 * half)
-    two = correlation.maximum_near(whole.lag_s + half, 0.5 * half)
-    return None if one is None or two is None else 0.5 * (one[0] + two[0])
+def _windows(left: Signal, right: Signal, whole: Middle) -> FloatArray:
+    return middles_of_windows(left, right, whole, WINDOW_S, WINDOW_S, 2.0)[0]
 
 
 def _line(
-    windows: list[tuple[float, float]], lag_s: float, middle_ns: int
+    windows: FloatArray, lag_s: float, middle_ns: int
 ) -> tuple[float, float, float | None, float]:
     """Return offset at the middle (s), slope, its std (None: not known), std of the offset (s)."""
-    points = np.array(windows).reshape(-1, 2)
-    span_s = float(np.ptp(points[:, 0])) if len(points) else 0.0
-    if len(points) < 4 or span_s < LEAST_SPAN_S:
+    span_s = float(np.ptp(windows[:, 0])) if len(windows) else 0.0
+    if len(windows) < 4 or span_s < LEAST_SPAN_S:
         return lag_s, 0.0, None, 0.0
     from scipy.stats import siegelslopes
 
-    time_s, lag = points[:, 0] - middle_ns * 1e-9, points[:, 1] - lag_s
+    time_s, lag = windows[:, 0] - middle_ns * 1e-9, windows[:, 1] - lag_s
     slope, height = (float(v) for v in siegelslopes(lag, time_s))
     scatter = 1.4826 * float(np.median(np.abs(lag - height - slope * time_s)))
     slope_std = scatter / (float(np.std(time_s)) * np.sqrt(len(time_s)))

@@ -79,7 +79,7 @@ def synchronise(
 
 def _by_motion(left: ImuSeries, right: ImuSeries, method: str) -> Synchronised:
     found = offset_by_motion(left, right, method)
-    notes = found.notes + _doubts(found)
+    notes = found.notes
     applied = {"right": found}
     if abs(found.offset_ns) < 3e9 * found.std_s and found.skew_ppm == 0.0:
         notes += (
@@ -101,30 +101,19 @@ def _by_motion(left: ImuSeries, right: ImuSeries, method: str) -> Synchronised:
     )
 
 
-def _doubts(found: Offset) -> tuple[str, ...]:
-    if found.confidence >= DOUBT:
-        return ()
-    cycle = found.detail.get("cycle_s")
-    other = f"one {cycle:.2f} s away" if cycle else "another one"
-    return (
-        f"doubtful: {other} fits nearly as well; check that the feet walk in turn from the first "
-        "to the last step",
-    )
-
-
 def _by_arrival(series: Mapping[str, ImuSeries], logged: Mapping[str, IntArray]) -> Synchronised:
     found = {foot: offset_by_arrival(foot, series[foot].stamp_ns, logged[foot]) for foot in FEET}
     moved = {foot: found[foot].moved(series[foot]) for foot in FEET}
     left, right = found["left"], found["right"]
-    middle_ns = right.center_ns
-    at_left = int(left.apply([middle_ns])[0]) - middle_ns  # type: ignore[arg-type]
+    # both at one moment of the host's: by the devices' own stamps they may be hours apart
+    host_ns = right.center_ns + right.offset_ns
     faster = (1.0 + 1e-6 * right.skew_ppm) / (1.0 + 1e-6 * left.skew_ppm) - 1.0
     return Synchronised(
         method="arrival",
         left=moved["left"],
         right=moved["right"],
         applied=found,
-        offset_s=1e-9 * (right.offset_ns - at_left),
+        offset_s=1e-9 * (right.offset_ns - left.offset_at(host_ns)),
         skew_ppm=1e6 * faster,
         skew_known=True,
         std_s=(left.std_s**2 + right.std_s**2) ** 0.5,

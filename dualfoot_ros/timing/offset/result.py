@@ -46,6 +46,11 @@ class Offset:
         slower = 1.0 / (1.0 + 1e-6 * self.skew_ppm) - 1.0
         return stamps + self.offset_ns + np.rint(slower * elapsed).astype(np.int64)
 
+    def offset_at(self, other_ns: int) -> int:
+        """Return what is added to the stamp that becomes ``other_ns`` on the other clock, ns."""
+        elapsed_ns = other_ns - self.center_ns - self.offset_ns
+        return self.offset_ns - round(1e-6 * self.skew_ppm * elapsed_ns)
+
     def moved(self, series: ImuSeries) -> ImuSeries:
         """Return the series with its stamps on the other clock."""
         return replace(series, stamp_ns=self.apply(series.stamp_ns))

@@ -53,7 +53,8 @@ def test_devices_with_different_clocks_are_told_and_an_offset_brings_them_togeth
     done = dualfoot("import", *pair, "-o", "apart", cwd=tmp_path)
     assert done.returncode == 0
     assert "do not overlap" in done.stderr
-    assert "--right-offset SECONDS' (162.500" in done.stderr
+    assert "'dualfoot sync BAG -o ALIGNED'" in done.stderr
+    assert "--right-offset SECONDS" in done.stderr
     done = dualfoot("import", *pair, "-o", "together", "--right-offset", "162.5", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     bag = read_bag(tmp_path / "together")

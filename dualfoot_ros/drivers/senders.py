@@ -16,7 +16,7 @@ class Senders:
         """Start with none."""
         self.samples: dict[str, int] = {}
         self.returns: dict[str, int] = {}
-        self._last = ""
+        self._last: str | None = None
 
     def see(self, sender: str, samples: int) -> None:
         """Take the number of samples that a datagram of ``sender`` brought."""

@@ -9,11 +9,12 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from drivers import frames
 from drivers.links import PluggedDevice
 
-from dualfoot_ros.drivers import State
+from dualfoot_ros.drivers import Checks, Source, State
 from dualfoot_ros.nodes.diagnostics import OK, WARN, Status
+from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.refusals import Refusals, in_words
 
-from .samples import status_values
+from .samples import STANDING, status_values
 from .test_devices import Adapter
 
 ERROR = DiagnosticStatus.ERROR
@@ -110,6 +111,24 @@ def test_samples_that_are_refused_or_lost_are_a_warning_and_no_wrong_rate(
     check = sending.adapter.node.check
     sending.bench.until(lambda: len(check._intervals) > 100, "intervals")
     assert check.rate_hz == pytest.approx(200.0) and check.findings == []
+
+
+@pytest.mark.parametrize("fault", ["nan", "crc", "lost", "far"])
+def test_every_third_sample_that_is_missing_makes_no_lower_rate(fault):
+    checks = Checks(rate=200.0, force_range=1000.0)
+    source = Source("udp://127.0.0.1:0?format=mcu", lambda samples: None, checks=checks)
+    for k in range(900):
+        if (what := "" if k % 3 else fault) != "lost":
+            source._take(mcu(k, what), k)
+    assert source.check.rate_hz == pytest.approx(200.0) and source.check.findings == []
+
+
+def test_samples_of_a_topic_that_are_not_finite_make_no_lower_rate(bench):
+    node = bench.add(ImuAdapterNode, {"source": "topic:///x", "checks.rate": 200.0})
+    for k in range(900):
+        values = STANDING if k % 3 else STANDING * math.nan
+        node._sensed(k * 5_000_000, values + 1e-3 * math.sin(k))
+    assert node.check.rate_hz == pytest.approx(200.0)
 
 
 def test_two_boards_on_one_port_are_named_with_what_to_do(boards, capfd):

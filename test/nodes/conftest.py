@@ -69,6 +69,8 @@ def context() -> Iterator:
 
     made = rclpy.Context()
     rclpy.init(args=[], context=made)
+    # An --log-level that another test has given holds for the whole process.
+    rclpy.logging.set_logger_level("", rclpy.logging.LoggingSeverity.INFO)
     yield made
     rclpy.try_shutdown(context=made)
 

@@ -16,6 +16,7 @@ from .middles import Middle
 WINDOW_S, HOP_S = 4.0, 2.0
 LEAST_WINDOWS = 4
 LEAST_SPAN_S = 60.0  # of the windows, to tell a skew
+MOST_POINTS = 500  # that the line is fitted to; the fit takes their square in memory
 KEPT = 0.9  # share of the windows that counts: at a stop one may find nothing
 FLOOR = 0.001  # of a cycle; more even than that is not told apart
 
@@ -33,7 +34,8 @@ def unevenness(left: Signal, right: Signal, whole: Middle) -> tuple[float, int]:
 
     time_s, lag = points[:, 0] - points[0, 0], points[:, 1] - whole.lag_s
     if time_s[-1] >= LEAST_SPAN_S:
-        lag = lag - siegelslopes(lag, time_s).slope * time_s
+        few = slice(None, None, 1 + len(lag) // MOST_POINTS)
+        lag = lag - siegelslopes(lag[few], time_s[few]).slope * time_s
     squares = np.sort((lag - np.median(lag)) ** 2)[: max(round(KEPT * len(lag)), 1)]
     return max(float(np.sqrt(squares.mean())) / whole.cycle_s, FLOOR), len(points)
 

@@ -26,6 +26,7 @@ from .result import Offset
 ASYMMETRY_S = 0.008  # what left and right steps differ by, measured on walks with one clock
 WINDOW_S = 20.0
 SMEAR_S = 0.08  # that a skew may cause over the recording before it is looked for
+MOST_SLOPES = 50  # each way; from an hour on the largest skew shrinks
 COARSE = 4  # steps of the grid in one when looking for the skew
 
 
@@ -99,6 +100,7 @@ def _coarse_slope(left: Signal, right: Signal) -> float:
     """
     span_s = STEP_S * min(len(left.values), len(right.values))
     count = int(np.ceil(LARGEST_SKEW * span_s / SMEAR_S)) if span_s >= LEAST_SPAN_S else 0
+    count = min(count, MOST_SLOPES)
     slopes = np.arange(-count, count + 1) * SMEAR_S / span_s
     if count == 0:
         return 0.0

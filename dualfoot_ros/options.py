@@ -98,7 +98,7 @@ class AdapterOptions(Parameters):
     )
     foot: str = parameter(
         "auto",
-        "which foot of a bag to play (auto: by namespace)",
+        "which foot this is: of a bag to play, of a calibration to use (auto: by namespace)",
         choices=("auto", "left", "right"),
     )
     frame_id: str = parameter("", "frame id to publish (empty: as received)")

@@ -9,9 +9,7 @@ from ..timing import Aligner
 from .diagnostics import ERROR, WARN, Status
 
 UNPAIRED_S = 2.0  # without a pair while both feet deliver, by the wall clock
-DELIVERS_S = (
-    1.0  # a foot whose newest sample is older than this does not; silence is said elsewhere
-)
+DELIVERS_S = 1.0  # a foot without a sample for longer is silent, which is said elsewhere
 REMEDY = (
     "set stamping.left and stamping.right to device (stamp, where imu_adapter does it), or "
     "add {offset:.3f} s with stamping.right_offset; a recording is brought together by "

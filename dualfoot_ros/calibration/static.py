@@ -10,12 +10,12 @@ import numpy as np
 
 from ..core.parameters import Parameters, parameter
 from ..core.series import FloatArray, ImuSeries
+from ..recording.checks import GRAVITY, GRAVITY_ERROR
 from ..recording.quality import quality_of
 from ..timing import clean
 from .errors import CalibrationError
 from .soundness import check_measured, not_finite, usable_samples
 
-GRAVITY_ERROR = 1.5  # m/s^2, more than any bias
 NEAR = np.cos(np.radians(15.0))  # attitudes closer than this are one
 
 
@@ -108,7 +108,7 @@ def segments_of(series: ImuSeries, name: str, config: Static | None = None) -> l
 def check_gravity(segment: Segment) -> None:
     """Raise CalibrationError when what is felt at rest is not gravity in m/s^2."""
     norm = float(np.linalg.norm(segment.mean))
-    if abs(norm - 9.80665) > GRAVITY_ERROR:
+    if abs(norm - GRAVITY) > GRAVITY_ERROR:
         raise CalibrationError(
             f"'{segment.name}': the specific force at rest is {norm:.4g} m/s^2; allowed is "
             f"9.8 +- {GRAVITY_ERROR:g}, so check the unit, and that gravity was not taken out"

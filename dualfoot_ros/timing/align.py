@@ -10,12 +10,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.series import ImuSeries, IntArray
+from ..core.series import BoolArray, ImuSeries, IntArray
 from ..core.trajectory import FEET
 from .clean import Clean, clean
 from .config import Sync
 from .errors import TimingError
-from .places import BoolArray, Places
+from .places import Places
 
 
 @dataclass(frozen=True)

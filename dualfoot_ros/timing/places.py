@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.series import FloatArray, ImuSeries, IntArray
+from ..core.series import BoolArray, FloatArray, ImuSeries, IntArray
 from .config import Sync
-
-BoolArray = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -52,11 +49,11 @@ class Places:
         return cls(taken, high, weight, exact, between, ~inside & ~exact)
 
     @property
-    def found(self) -> NDArray[np.bool_]:
+    def found(self) -> BoolArray:
         """Where the foot has a value."""
         return self.exact | self.between
 
-    def take(self, series: ImuSeries, grid: IntArray, good: NDArray[np.bool_]) -> ImuSeries:
+    def take(self, series: ImuSeries, grid: IntArray, good: BoolArray) -> ImuSeries:
         """Return the series at the ``good`` stamps of the grid."""
         field = series.magnetic_field
         return ImuSeries(
@@ -66,7 +63,7 @@ class Places:
             None if field is None else self._values(field, good),
         )
 
-    def _values(self, column: FloatArray, good: NDArray[np.bool_]) -> FloatArray:
+    def _values(self, column: FloatArray, good: BoolArray) -> FloatArray:
         before, after = column[self.before[good]], column[self.after[good]]
         line = before + (after - before) * self.weight[good][:, None]
         return np.where(self.exact[good][:, None], before, line)

@@ -60,7 +60,7 @@ class DeviceClock:
             self._begin([arrival])
         elif not self._take(arrival):
             return None
-        if self.state.phase == "refused":
+        if self._phase(self._line) == "refused":
             self.counters["bad_skew"] += 1
             return None
         if self._withheld():

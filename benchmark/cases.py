@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dualfoot_ros.core import DualFootTracker, ImuPair, TrackerConfig
-from dualfoot_ros.core.series import ImuSeries, stack_pairs
+from dualfoot_ros.core.samples.series import ImuSeries, stack_pairs
 from dualfoot_ros.simulation import WalkConfig, simulate
 
 from .yardstick import DenseFilter

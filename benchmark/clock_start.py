@@ -19,7 +19,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from dualfoot_ros.core.series import FloatArray, IntArray
+from dualfoot_ros.core.samples.series import FloatArray, IntArray
 from dualfoot_ros.simulation.arrivals import BleLink, arrivals
 from dualfoot_ros.timing import ClockModel, DeviceClock
 

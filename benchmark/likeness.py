@@ -19,11 +19,11 @@ from pathlib import Path
 import numpy as np
 
 from dualfoot_ros.core import ImuSeries
-from dualfoot_ros.core.series import FloatArray, IntArray
-from dualfoot_ros.core.trajectory import stance_bounds
-from dualfoot_ros.recording.checks import require_usable
+from dualfoot_ros.core.results.trajectory import stance_bounds
+from dualfoot_ros.core.samples.series import FloatArray, IntArray
+from dualfoot_ros.inspection.findings import require_usable
+from dualfoot_ros.inspection.stance_statistics import free_tracks
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
-from dualfoot_ros.recording.stances import free_tracks
 from dualfoot_ros.simulation import WalkConfig, simulate
 from dualfoot_ros.timing import align
 

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from dualfoot_ros.core import TrackerConfig
-from dualfoot_ros.core.series import FloatArray
+from dualfoot_ros.core.samples.series import FloatArray
 
 
 class DenseFilter:

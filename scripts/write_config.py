@@ -8,8 +8,8 @@ from pathlib import Path
 
 from dualfoot_ros.core.config import all_specs
 from dualfoot_ros.core.parameters import ParameterSpec
-from dualfoot_ros.options import node_specs
-from dualfoot_ros.parameter_files import parameter_file
+from dualfoot_ros.settings.files import parameter_file
+from dualfoot_ros.settings.nodes import node_specs
 
 ROOT = Path(__file__).resolve().parent.parent
 CONFIG = ROOT / "config"

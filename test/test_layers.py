@@ -11,11 +11,13 @@ BELOW = {
     "core": set(),
     "timing": {"core"},
     "drivers": {"core", "timing"},
-    TOP: {"core", "timing", "drivers"},
-    "recording": {"core", "timing", TOP},
-    "simulation": {"core", "timing", TOP},
-    "evaluation": {"core", "timing", TOP, "recording", "simulation"},
-    "calibration": {"core", "timing", TOP, "recording", "evaluation"},
+    "settings": {"core", "timing", "drivers"},
+    "recording": {"core", "timing", "settings"},
+    "simulation": {"core", "timing", "settings"},
+    "inspection": {"core", "timing", "settings", "recording"},
+    "evaluation": {"core", "timing", "settings", "recording", "simulation", "inspection"},
+    "calibration": {"core", "timing", "settings", "recording", "inspection", "evaluation"},
+    TOP: set(),
 }
 ALL = {"nodes", "cli"}
 ROS = {
@@ -154,8 +156,12 @@ def test_nothing_but_the_command_line_prints():
 
 def test_the_walk_sees_relative_and_absolute_imports_at_any_depth():
     seen = set(imported(PACKAGE / "recording" / "write.py"))
-    assert {"dualfoot_ros.core.series", "dualfoot_ros.recording.cdr", "rosbags.rosbag2"} <= seen
+    assert {
+        "dualfoot_ros.core.samples.series",
+        "dualfoot_ros.recording.cdr",
+        "rosbags.rosbag2",
+    } <= seen
     early = set(imported(PACKAGE / "recording" / "write.py", top_level_only=True))
     assert "rosbags.rosbag2" not in early
     assert target("dualfoot_ros.recording.read") == "recording"
-    assert target("dualfoot_ros.presets") == TOP
+    assert target("dualfoot_ros.settings.presets") == "settings"

@@ -137,7 +137,8 @@ def test_an_installed_executable_runs(installed):
 @pytest.mark.parametrize("prefix", ["", "share of nothing", "here"])
 def test_presets_are_found_with_and_without_the_ament_index(installed, prefix):
     ament = {"AMENT_PREFIX_PATH": str(installed) if prefix == "here" else prefix}
-    code = "from dualfoot_ros.presets import *; print(preset_names(), find_config('liu2023'))"
+    names = "from dualfoot_ros.settings.presets import *"
+    code = f"{names}; print(preset_names(), find_config('liu2023'))"
     done = run_installed(installed, sys.executable, "-c", code, **ament)
     assert done.returncode == 0, done.stderr
     assert "'default'" in done.stdout and "liu2023.yaml" in done.stdout

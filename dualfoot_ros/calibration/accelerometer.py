@@ -21,7 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.series import FloatArray
+from ..core.samples.series import FloatArray
 from .errors import CalibrationError
 from .sensor import Triad
 from .static import Segment, attitudes

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.series import FloatArray
+from ..core.samples.series import FloatArray
 from .errors import CalibrationError
 
 PER_OCTAVE = 4

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ..core.trajectory import FEET
+from ..core.results.trajectory import FEET
 from ..recording import Recording
 from .errors import CalibrationError
 from .file import ANY, Calibration

@@ -26,8 +26,8 @@ from typing import Any
 
 import numpy as np
 
-from ..core.series import FloatArray
-from ..core.trajectory import FEET
+from ..core.results.trajectory import FEET
+from ..core.samples.series import FloatArray
 from ..recording.atomic import write_text
 from .errors import CalibrationError
 from .sensor import TRIADS, SensorCalibration, Triad

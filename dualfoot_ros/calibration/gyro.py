@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.series import FloatArray, ImuSeries
+from ..core.samples.series import FloatArray, ImuSeries
 from .allan import FLOOR, AllanCurve, Slopes, allan_curve, slopes_of
 from .errors import CalibrationError
 from .sensor import TRIADS, Triad

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.series import FloatArray, ImuSeries
+from ..core.samples.series import FloatArray, ImuSeries
 
 TRIADS = ("accelerometer", "gyro")
 

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from ..core.series import ImuSeries
-from ..recording.checks import GRAVITY, GRAVITY_ERROR, STUCK_SHARE
-from ..recording.quality import Quality, quality_of
-from ..recording.stuck import TRIADS as WORDS
-from ..recording.stuck import Held, Stuck, held_at_rest
+from ..core.samples.series import ImuSeries
+from ..inspection.findings import GRAVITY, GRAVITY_ERROR, STUCK_SHARE
+from ..inspection.quality import Quality, quality_of
+from ..inspection.stuck_values import TRIADS as WORDS
+from ..inspection.stuck_values import Held, Stuck, held_at_rest
 from ..timing import clean
 from .errors import CalibrationError
 from .sensor import TRIADS

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..core.series import ImuSeries
-from ..core.trajectory import FEET
+from ..core.results.trajectory import FEET
+from ..core.samples.series import ImuSeries
 from ..recording import Topics, read_bag
 from ..recording.importers.axes import IDENTITY
 from ..recording.importers.xsens_dot import read_sensor

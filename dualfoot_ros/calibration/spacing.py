@@ -3,7 +3,7 @@
 From the tracks of two independent feet (method ``zupt``), so no constraint assumes what is sought.
 
 - The lateral distance in passing comes from the turns of the walk (see
-  :mod:`dualfoot_ros.recording.side_by_side`).
+  :mod:`dualfoot_ros.inspection.lateral_spacing`).
 - kappa, eq. (31) of Liu et al. 2023: with L_k the distance by which the swinging foot is ahead of
   the standing one at mid-stance and v its speed, the feet are abreast L_k / v before mid-stance.
   The error of the placement enters L_k with the sign of the foot that stands, so
@@ -23,10 +23,10 @@ import numpy as np
 
 from ..core.config import TrackerConfig, method_parameters
 from ..core.constraints import METHODS
-from ..core.series import FloatArray
-from ..core.trajectory import Trajectory
-from ..recording.passings import SHARE, Passing, passings_of
-from ..recording.side_by_side import SideBySide, side_by_side, straight
+from ..core.results.trajectory import Trajectory
+from ..core.samples.series import FloatArray
+from ..inspection.lateral_spacing import SideBySide, side_by_side, straight
+from ..inspection.passings import SHARE, Passing, passings_of
 from .errors import CalibrationError
 
 LEAST_PASSINGS = 8

@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.parameters import Parameters, parameter
-from ..core.series import FloatArray, ImuSeries
-from ..recording.checks import GRAVITY, GRAVITY_ERROR
-from ..recording.quality import quality_of
+from ..core.samples.series import FloatArray, ImuSeries
+from ..inspection.findings import GRAVITY, GRAVITY_ERROR
+from ..inspection.quality import quality_of
 from ..timing import clean
 from .errors import CalibrationError
 from .soundness import check_measured, not_finite, usable_samples

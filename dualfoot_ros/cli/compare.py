@@ -9,14 +9,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .bags import add_usable_arguments
+from .arguments import add_usable_arguments
 from .progress import progress
 from .settings import setting
 
 if TYPE_CHECKING:
-    from ..evaluation.cases import Case
-    from ..evaluation.compare import Entry, Job
-    from ..evaluation.parallel import Failure
+    from ..evaluation.batch.cases import Case
+    from ..evaluation.batch.comparison import Entry, Job
+    from ..evaluation.batch.parallel import Failure
 
 HELP = "run every method on one or many bags and put their figures side by side"
 EXAMPLES = """\
@@ -92,9 +92,9 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Compare, write, print; return the exit code."""
-    from ..evaluation.compare_rows import flat
-    from ..evaluation.output import check_directory
-    from ..evaluation.parallel import default_jobs
+    from ..evaluation.batch.parallel import default_jobs
+    from ..evaluation.reports.comparison_rows import flat
+    from ..evaluation.reports.output import check_directory
 
     check_numbers(args, repeat=20)
     if args.output is not None:
@@ -121,7 +121,7 @@ def check_numbers(args: argparse.Namespace, **most: int) -> None:
 
 
 def _cases(args: argparse.Namespace) -> list[Case]:
-    from ..evaluation.cases import Sweep, case_names, make_cases
+    from ..evaluation.batch.cases import Sweep, case_names, make_cases
 
     overrides = dict(setting(text) for text in args.set)
     sweeps = [Sweep.parse(text) for text in args.sweep]
@@ -130,7 +130,7 @@ def _cases(args: argparse.Namespace) -> list[Case]:
 
 def _jobs(args: argparse.Namespace, cases: Sequence[Case]) -> list[Job]:
     from ..evaluation import Align, Options
-    from ..evaluation.compare import Job
+    from ..evaluation.batch.comparison import Job
 
     bags = list(dict.fromkeys(str(Path(bag)) for bag in args.bag))
     options = Options(Align(args.align))
@@ -140,8 +140,8 @@ def _jobs(args: argparse.Namespace, cases: Sequence[Case]) -> list[Job]:
 
 def _run(jobs: Sequence[Job], processes: int) -> tuple[list[Entry], dict[str, Failure]]:
     """Return what came of the jobs, in their order, and what failed by bag and case."""
-    from ..evaluation.compare import compare_one
-    from ..evaluation.parallel import Failure, run_each
+    from ..evaluation.batch.comparison import compare_one
+    from ..evaluation.batch.parallel import Failure, run_each
 
     found: dict[int, Entry] = {}
     failed: dict[int, Failure] = {}
@@ -192,8 +192,8 @@ def _write(
     rows: list[dict[str, Any]],
     failed: dict[str, Failure],
 ) -> list[Path]:
-    from ..evaluation.compare_rows import csv_text
-    from ..evaluation.output import staged
+    from ..evaluation.reports.comparison_rows import csv_text
+    from ..evaluation.reports.output import staged
 
     with staged(args.output) as folder:
         paths = [folder / "compare.json", folder / "compare.csv"]
@@ -206,7 +206,7 @@ def _write(
 
 
 def _draw(found: Sequence[Entry], rows: list[dict[str, Any]], folder: Path) -> list[Path]:
-    from ..evaluation.plots.compare import draw_compared, draw_sweep
+    from ..evaluation.reports.plots.methods import draw_compared, draw_sweep
 
     paths = []
     bags = list(dict.fromkeys(entry.bag for entry in found))
@@ -234,13 +234,13 @@ def _print(
         print(json.dumps({**_document(found, failed), "files": files}, allow_nan=False))
         return
     if args.csv:
-        from ..evaluation.compare_rows import csv_text
+        from ..evaluation.reports.comparison_rows import csv_text
 
         print(csv_text(rows), end="")
         return
     from rich.console import Console
 
-    from ..evaluation.compare_tables import tables
+    from ..evaluation.reports.comparison_tables import tables
 
     console = Console(highlight=False)
     if not console.is_terminal:

@@ -15,8 +15,8 @@ from .settings import setting
 
 if TYPE_CHECKING:
     from ..core import TrackerConfig
-    from ..evaluation.monte_carlo import Score, WalkJob, WalkScores
-    from ..evaluation.parallel import Failure
+    from ..evaluation.batch.monte_carlo import Score, WalkJob, WalkScores
+    from ..evaluation.batch.parallel import Failure
 
 HELP = "compare the covariance with the errors over many simulated walks (NEES, NIS)"
 EXAMPLES = """\
@@ -61,10 +61,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Simulate, track, score, print; return the exit code."""
-    from ..evaluation.monte_carlo import summarise
-    from ..evaluation.output import check_directory
-    from ..evaluation.parallel import default_jobs
-    from ..presets import load_config
+    from ..evaluation.batch.monte_carlo import summarise
+    from ..evaluation.batch.parallel import default_jobs
+    from ..evaluation.reports.output import check_directory
+    from ..settings.presets import load_config
 
     check_numbers(args, walks=10000)
     if args.output is not None:
@@ -84,7 +84,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _jobs(args: argparse.Namespace, config: TrackerConfig) -> list[WalkJob]:
     from ..evaluation import EvaluationError
-    from ..evaluation.monte_carlo import WalkJob
+    from ..evaluation.batch.monte_carlo import WalkJob
     from ..simulation import WalkConfig, grade
 
     if args.seed < 0:
@@ -96,8 +96,8 @@ def _jobs(args: argparse.Namespace, config: TrackerConfig) -> list[WalkJob]:
 
 
 def _run(jobs: Sequence[WalkJob], processes: int) -> tuple[list[WalkScores], dict[str, Failure]]:
-    from ..evaluation.monte_carlo import score_walk
-    from ..evaluation.parallel import Failure, run_each
+    from ..evaluation.batch.monte_carlo import score_walk
+    from ..evaluation.batch.parallel import Failure, run_each
 
     found: dict[int, WalkScores] = {}
     failed: dict[str, Failure] = {}
@@ -152,8 +152,8 @@ def _report(
 def _write(
     folder: Path, document: dict[str, Any], scores: Sequence[Score], title: str
 ) -> list[Path]:
-    from ..evaluation.output import staged
-    from ..evaluation.plots.consistency import draw_consistency
+    from ..evaluation.reports.output import staged
+    from ..evaluation.reports.plots.nees_curves import draw_consistency
 
     with staged(folder) as scratch:
         figures = scratch / "consistency.json"
@@ -166,7 +166,7 @@ def _print(scores: Sequence[Score], title: str) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from ..evaluation.table import number
+    from ..evaluation.reports.walk_table import number
 
     table = Table(title=title, title_justify="left")
     table.add_column("quantity")

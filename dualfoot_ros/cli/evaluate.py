@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .bags import add_usable_arguments, load_usable
+from .arguments import add_usable_arguments, load_usable
 from .settings import setting
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def run(args: argparse.Namespace) -> int:
     """Evaluate, write, print; return the exit code."""
     from ..calibration import calibrated, for_feet
     from ..evaluation import evaluate, track, truth_of
-    from ..evaluation.output import check_directory
+    from ..evaluation.reports.output import check_directory
 
     if args.output is not None:
         check_directory(args.output)
@@ -126,7 +126,7 @@ def _options(args: argparse.Namespace) -> Any:
 
 
 def _config(args: argparse.Namespace) -> TrackerConfig:
-    from ..presets import load_config
+    from ..settings.presets import load_config
 
     overrides = dict(setting(text) for text in args.set)
     if args.method is not None:
@@ -145,8 +145,8 @@ def _objections(
 ) -> Iterator[str]:
     """Yield what tracks with nothing between the feet show to be wrong."""
     from ..evaluation import track
-    from ..recording.stances import free_config
-    from ..recording.walk_checks import walk_findings
+    from ..inspection.exchanged_feet import walk_findings
+    from ..inspection.stance_statistics import free_config
 
     if config.method == "rigid_pair":  # both sensors are on one shoe
         return
@@ -157,13 +157,13 @@ def _objections(
 
 
 def _write(args: argparse.Namespace, found: Evaluation, metrics: dict[str, Any]) -> list[Path]:
-    from ..evaluation.output import staged, write_metrics
-    from ..evaluation.tum import write_tracks
+    from ..evaluation.reports.output import staged, write_metrics
+    from ..evaluation.reports.tum import write_tracks
 
     with staged(args.output) as folder:
         paths = [write_metrics(folder, metrics), *write_tracks(folder, found)]
         if not args.no_plots:
-            from ..evaluation.plots import draw_all
+            from ..evaluation.reports.plots import draw_all
 
             name = Path(args.bag).name
             paths += draw_all({found.trajectory.method: found}, folder, name)
@@ -175,7 +175,7 @@ def _print(
 ) -> None:
     from rich.console import Console
 
-    from ..evaluation.table import walk_table
+    from ..evaluation.reports.walk_table import walk_table
 
     if args.json:
         print(json.dumps(metrics, allow_nan=False))

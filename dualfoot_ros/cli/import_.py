@@ -8,10 +8,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..core.aids import WORN
-from ..core.series import PressureSeries
-from ..core.trajectory import FEET
+from ..core.results.trajectory import FEET
+from ..core.samples.series import PressureSeries
 from ..core.units import FORCE_UNITS, RATE_UNITS
-from ..recording import Recording, checks, write_bag
+from ..inspection import findings as checks
+from ..recording import Recording, write_bag
 from ..recording.atomic import check_target
 from ..recording.errors import RecordingError
 from ..recording.importers import FORMATS, ImportOptions, import_recording

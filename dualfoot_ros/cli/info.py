@@ -11,15 +11,15 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from ..core.errors import AlignmentError
-from .bags import add_topic_arguments, load_bag
+from .arguments import add_topic_arguments, load_bag
 
 if TYPE_CHECKING:
+    from ..inspection.field_facts import FieldFacts
+    from ..inspection.findings import Finding
+    from ..inspection.pressure_facts import PressureFacts
+    from ..inspection.quality import Quality
+    from ..inspection.stance_statistics import Stances
     from ..recording import Recording
-    from ..recording.checks import Finding
-    from ..recording.field import FieldFacts
-    from ..recording.pressure import PressureFacts
-    from ..recording.quality import Quality
-    from ..recording.stances import Stances
 
 HELP = "tell in words what is in a bag: rates, gaps, standstill, units, stances"
 EXAMPLES = """\
@@ -44,8 +44,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Read, judge and tell; 2 when the bag cannot be evaluated."""
+    from ..inspection.findings import findings, qualities_of
     from ..recording import list_topics
-    from ..recording.checks import findings, qualities_of
 
     recording = load_bag(args.bag, args)
     qualities = qualities_of(recording)
@@ -74,9 +74,9 @@ def _walked_on(recording: Recording) -> tuple[dict[str, Stances], list[Finding]]
     """Track the feet; return their stances and what the tracks show to be wrong."""
     from rich.console import Console
 
-    from ..recording.checks import require_usable
-    from ..recording.stances import free_tracks, stances_of
-    from ..recording.walk_checks import walk_findings
+    from ..inspection.exchanged_feet import walk_findings
+    from ..inspection.findings import require_usable
+    from ..inspection.stance_statistics import free_tracks, stances_of
 
     with Console(stderr=True).status("looking for stances"):
         try:
@@ -169,13 +169,13 @@ def _together(left: Quality, right: Quality) -> str:
 
 
 def _pressure(recording: Recording) -> dict[str, PressureFacts]:
-    from ..recording.pressure import facts_of
+    from ..inspection.pressure_facts import facts_of
 
     return {worn: facts_of(series) for worn, series in recording.pressure.items()}
 
 
 def _barometer(worn: str, facts: PressureFacts) -> str:
-    from ..recording.pressure import wearer
+    from ..inspection.pressure_facts import wearer
 
     return (
         f"{wearer(worn)}: {facts.samples} samples from {facts.start_s:.3f} to "
@@ -186,7 +186,7 @@ def _barometer(worn: str, facts: PressureFacts) -> str:
 
 
 def _fields(recording: Recording) -> dict[str, FieldFacts]:
-    from ..recording.checks import fields_of
+    from ..inspection.findings import fields_of
 
     return fields_of(recording)
 

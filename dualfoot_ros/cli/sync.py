@@ -9,12 +9,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .bags import add_topic_arguments, load_bag
+from .arguments import add_topic_arguments, load_bag
 from .progress import progress
 
 if TYPE_CHECKING:
     from ..recording import Recording
-    from ..timing.offset.recording import Synchronised
+    from ..timing.offset.synchronise import Synchronised
 
 HELP = "find the offset between the clocks of the two feet, and write a bag without it"
 EXAMPLES = """\
@@ -73,9 +73,9 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _synchronise(recording: Recording, args: argparse.Namespace) -> Synchronised:
-    from ..recording.arrivals import read_arrivals
+    from ..recording.log_times import read_arrivals
     from ..timing import TimingError
-    from ..timing.offset.recording import synchronise
+    from ..timing.offset.synchronise import synchronise
 
     left, right = recording.left, recording.right
     if left is None or right is None:

@@ -2,10 +2,10 @@
 
 from .config import TrackerConfig
 from .errors import AlignmentError, ConfigError, DualFootError, SeriesError
-from .series import FieldSeries, ImuPair, ImuSeries, PoseSeries, PressureSeries
+from .results.trajectory import Event, EventKind, FootTrajectory, Trajectory
+from .results.update import Update
+from .samples.series import FieldSeries, ImuPair, ImuSeries, PoseSeries, PressureSeries
 from .tracker import DualFootTracker
-from .trajectory import Event, EventKind, FootTrajectory, Trajectory
-from .update import Update
 
 __all__ = [
     "AlignmentError",

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .config import Alignment
-from .series import FloatArray
+from .samples.series import FloatArray
 
 MEMORY_S = 30.0  # what is older than that fades: biases drift
 SLIDES = 25  # steps in which a window moves on by its length

@@ -15,9 +15,9 @@ import numpy as np
 from .config import Heading
 from .kernel import Engine
 from .kernel import layout as at
-from .series import FloatArray
-from .trajectory import FEET, Event, EventKind
-from .workspace import Workspace
+from .kernel.workspace import Workspace
+from .results.trajectory import FEET, Event, EventKind
+from .samples.series import FloatArray
 
 LEAST_WAY = 0.5  # m; a shorter way has no direction
 SCATTER_RATE = 0.03  # rad/s, of a foot's heading over two strides of a straight walk

@@ -6,7 +6,7 @@ import numpy as np
 
 from .alignment import Standstill
 from .config import TrackerConfig
-from .series import FloatArray
+from .samples.series import FloatArray
 
 FIRST = 20  # pairs from which the rate is taken
 RATES_HZ = (5.0, 5000.0)  # beyond these the stamps are wrong, and memory must stay bounded

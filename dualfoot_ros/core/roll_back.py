@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from .constraints.method import Request
-from .estimate import JointEstimate, Outcome
+from .joint_estimate import JointEstimate, Outcome
 from .kernel import Engine
 from .kernel import layout as at
-from .workspace import Workspace
+from .kernel.workspace import Workspace
 
 ACTIONS = 16  # constraints kept before those that no roll-back can reach are dropped
 

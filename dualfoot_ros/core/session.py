@@ -14,15 +14,15 @@ from .alignment import Standstill
 from .config import TrackerConfig
 from .constraints import METHODS
 from .constraints.method import Method, Request, StancePhase
-from .estimate import JointEstimate, Outcome
+from .gait_history import Past
 from .heading import Headings, turn
+from .joint_estimate import JointEstimate, Outcome
 from .kernel import Engine
 from .kernel import layout as at
-from .past import Past
+from .kernel.workspace import Workspace
+from .results.trajectory import FEET, Event, EventKind
 from .roll_back import RollBack
-from .series import FloatArray, IntArray
-from .trajectory import FEET, Event, EventKind
-from .workspace import Workspace
+from .samples.series import FloatArray, IntArray
 
 Found = list[Event]
 

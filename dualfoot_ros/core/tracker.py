@@ -11,12 +11,14 @@ import numpy as np
 from .aids import AidInputs
 from .config import TrackerConfig
 from .errors import AlignmentError, ConfigError
-from .gate import MAX_GAP_NS, TIME_JUMPED, PairGate, next_irregular, regular_samples
 from .kernel import BackgroundEngine, Engine, compiled, interpreted
 from .kernel import layout as at
 from .opening import Opening
-from .rows import to_trajectory, turn_rows
-from .series import (
+from .results.rows import to_trajectory, turn_rows
+from .results.trajectory import FEET, Event, EventKind, Trajectory
+from .results.update import Update
+from .samples.pair_gate import MAX_GAP_NS, TIME_JUMPED, PairGate, next_irregular, regular_samples
+from .samples.series import (
     FieldSeries,
     FloatArray,
     ImuPair,
@@ -26,8 +28,6 @@ from .series import (
     stack_pairs,
 )
 from .session import Session
-from .trajectory import FEET, Event, EventKind, Trajectory
-from .update import Update
 
 
 class DualFootTracker:

@@ -2,13 +2,13 @@
 
 from .checks import Checks, SensorCheck
 from .conditioning import Conditioner, Conditioning
-from .decoder import COUNTERS, Decoder
 from .errors import SourceError
-from .formats import FORMATS, make_decoder
+from .protocols.decoder import COUNTERS, Decoder
+from .protocols.registry import FORMATS, make_decoder
 from .reader import Backoff, Reader, State
 from .sample import Sample
 from .source import Source, make_transport
-from .transport import Transport
+from .transports.transport import Transport
 from .uri import SCHEMES, SourceUri, parse_uri
 
 __all__ = [

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..core.mounting import IDENTITY, Matrix, Mounting, Vector, dot
 from ..core.parameters import parameter
+from ..core.samples.mounting import IDENTITY, Matrix, Mounting, Vector, dot
 from ..core.units import FORCE_UNITS, RATE_UNITS
 from .sample import Sample
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..core.parameters import Parameters, parameter
-from .transport import Transport
+from .transports.transport import Transport
 
 FACTOR = 2.0
 STOP_S = 15.0  # the longest a transport may take to give up what it is doing

@@ -8,21 +8,21 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Self
 
-from . import address
-from .ble import BleOptions, BleTransport
 from .checks import Checks, SensorCheck
 from .conditioning import Conditioner, Conditioning
-from .dot import DotOptions
-from .file import FileOptions, FileTransport
-from .formats import make_decoder
-from .pacing import Pacer
+from .protocols.dot import DotOptions
+from .protocols.registry import make_decoder
 from .reader import Reader, State
 from .sample import Sample
-from .senders import Senders
-from .serial_port import SerialOptions, SerialTransport
-from .tcp import TcpOptions, TcpTransport
-from .transport import Transport
-from .udp import UdpOptions, UdpTransport
+from .transports import address
+from .transports.ble import BleOptions, BleTransport
+from .transports.capture_file import FileOptions, FileTransport
+from .transports.pacing import Pacer
+from .transports.senders import Senders
+from .transports.serial_port import SerialOptions, SerialTransport
+from .transports.tcp import TcpOptions, TcpTransport
+from .transports.transport import Transport
+from .transports.udp import UdpOptions, UdpTransport
 from .uri import SourceUri, parse_uri
 
 MISSING = ("lost", "not_finite", "bad_checksum", "malformed")  # leave a hole between samples

@@ -9,14 +9,14 @@ from urllib.parse import parse_qsl, unquote, urlsplit
 
 from ..core.errors import ConfigError
 from ..core.parameters import Parameters
-from .ble import BleOptions
 from .errors import SourceError
-from .file import FileOptions
-from .formats import FORMATS, find_format
+from .protocols.registry import FORMATS, find_format
 from .reader import Backoff
-from .serial_port import SerialOptions
-from .tcp import TcpOptions
-from .udp import UdpOptions
+from .transports.ble import BleOptions
+from .transports.capture_file import FileOptions
+from .transports.serial_port import SerialOptions
+from .transports.tcp import TcpOptions
+from .transports.udp import UdpOptions
 
 
 class Scheme(NamedTuple):

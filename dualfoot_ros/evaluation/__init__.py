@@ -1,12 +1,12 @@
 """Metrics, reports and plots of a walk: against truth, floor markers, or the feet themselves."""
 
-from .align import Options
-from .demo import Report, demo_report
 from .errors import EvaluationError
 from .evaluate import Evaluation, evaluate
-from .frames import Align, Pair
-from .offline import track, truth_of
+from .frames.gauge import Options
+from .frames.yaw_transform import Align, Pair
 from .published import published_trajectory
+from .reports.demo_table import Report, demo_report
+from .track import track, truth_of
 
 __all__ = [
     "Align",

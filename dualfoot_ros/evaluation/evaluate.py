@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ..core.series import IntArray
-from ..core.trajectory import EventKind, FootTrajectory, Trajectory
+from ..core.results.trajectory import EventKind, FootTrajectory, Trajectory
+from ..core.samples.series import IntArray
 from ..recording.reference import Reference
-from .accuracy import Errors, StrideErrors, heading_error, position_errors, stride_errors
-from .align import (
+from .errors import EvaluationError
+from .frames.association import Footfalls
+from .frames.gauge import (
     Markers,
     Options,
     Truth,
@@ -22,14 +23,13 @@ from .align import (
     stood_on,
     to_markers,
 )
-from .association import Footfalls
-from .closure import Closure, closure
-from .consistency import Consistency, consistency
-from .errors import EvaluationError
-from .feet import FeetReport, feet_report
-from .frames import Align, YawTransform
-from .heading import HeadingErrors, heading_errors
-from .markers import MarkerErrors, marker_errors
+from .frames.yaw_transform import Align, YawTransform
+from .metrics.accuracy import Errors, StrideErrors, heading_error, position_errors, stride_errors
+from .metrics.closure import Closure, closure
+from .metrics.foot_passings import FeetReport, feet_report
+from .metrics.heading_split import HeadingErrors, heading_errors
+from .metrics.markers import MarkerErrors, marker_errors
+from .metrics.nees import Consistency, consistency
 from .notes import field_notes, marker_notes, pressure_notes, refusal_notes
 from .plain import plain
 

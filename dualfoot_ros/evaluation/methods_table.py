@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from .evaluate import Evaluation
-from .table import number
+from .reports.walk_table import number
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from .markers import MarkerErrors
+from .metrics.markers import MarkerErrors
 
 REFUSED = {
     "not_finite": "values that are not finite",

@@ -14,12 +14,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..core.rows import clean_stance
-from ..core.series import FloatArray
-from ..core.trajectory import FEET, Event, EventKind, FootTrajectory, Trajectory
-from .association import cut
+from ..core.results.rows import clean_stance
+from ..core.results.trajectory import FEET, Event, EventKind, FootTrajectory, Trajectory
+from ..core.samples.series import FloatArray
 from .errors import EvaluationError
-from .frames import YawTransform
+from .frames.association import cut
+from .frames.yaw_transform import YawTransform
 
 
 def published_trajectory(

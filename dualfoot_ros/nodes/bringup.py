@@ -16,16 +16,16 @@ from rclpy.task import Future
 from sensor_msgs.msg import FluidPressure, Imu, MagneticField
 
 from ..core.errors import DualFootError
-from ..core.trajectory import FEET
-from ..options import BringupOptions, node_specs
-from . import qos
+from ..core.results.trajectory import FEET
+from ..settings.nodes import BringupOptions, node_specs
 from .fusion import FusionNode
 from .imu_adapter import ImuAdapterNode
-from .magnetic import TOPICS as MAGNETIC
-from .parameters import declare, group
-from .pressure import TOPICS
+from .inputs.field_topics import TOPICS as MAGNETIC
+from .inputs.pressure_topics import TOPICS
 from .replay import ReplayNode
-from .shell import Graph, Program, destroy, run_nodes
+from .ros import qos
+from .ros.declared_parameters import declare, group
+from .ros.program import Graph, Program, destroy, run_nodes
 from .time_sync import TimeSyncNode
 
 QUIET_S = 0.5  # without a result after the end of what was played: that was the last
@@ -114,7 +114,7 @@ def _with(options: dict[str, Any], *parameters: Parameter) -> dict[str, Any]:
 
 
 def _recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> Node:
-    from .recorder import RecorderNode
+    from .playback.recorder import RecorderNode
 
     topics: dict[str, Any] = {}
     for foot in FEET:

@@ -12,25 +12,25 @@ from std_srvs.srv import Trigger
 
 from ..core import DualFootTracker, ImuPair, TrackerConfig
 from ..core.config import all_specs
-from ..core.trajectory import FEET
-from ..options import Frames, FusionOptions, Reports, node_specs
-from ..options import Input as InputOptions
-from ..options import Path as PathOptions
+from ..core.results.trajectory import FEET
+from ..settings.nodes import Frames, FusionOptions, Reports, node_specs
+from ..settings.nodes import Input as InputOptions
+from ..settings.nodes import Path as PathOptions
 from ..timing import Aligner, ClockModel, Stamping, Sync
-from . import qos
-from .apart import Apart
-from .corrections import of_feet
-from .diagnostics import Reporter
-from .health import Health
-from .magnetic import FieldInputs
-from .messages import imu_values, pose_yaw, to_ns
-from .outputs import Outputs
-from .parameters import declare, group
-from .pressure import PressureInputs
-from .shell import Graph, Program, run_nodes
-from .stamper import Stamper
-from .suspicion import UnitSuspicion
-from .watch import Input, Watch, Watched
+from .inputs.calibrations import of_feet
+from .inputs.field_topics import FieldInputs
+from .inputs.pressure_topics import PressureInputs
+from .inputs.stamp_gap import Apart
+from .inputs.stamper import Stamper
+from .inputs.unit_check import UnitSuspicion
+from .results.fusion_report import Health
+from .results.outputs import Outputs
+from .ros import qos
+from .ros.declared_parameters import declare, group
+from .ros.diagnostics import Reporter
+from .ros.messages import imu_values, pose_yaw, to_ns
+from .ros.program import Graph, Program, run_nodes
+from .ros.watched_input import Input, Watch, Watched
 
 NO_PAIRS = "; whoever makes the pairs, as time_sync does, says in /diagnostics why there are none"
 PROGRAM = Program(

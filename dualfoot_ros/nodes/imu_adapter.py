@@ -11,29 +11,30 @@ from rclpy.node import Node
 from rclpy.task import Future
 from sensor_msgs.msg import Imu
 
-from ..core.mounting import Vector
-from ..core.series import FieldSeries, FloatArray, ImuSeries
-from ..core.trajectory import FEET
+from ..core.results.trajectory import FEET
+from ..core.samples.mounting import Vector
+from ..core.samples.series import FieldSeries, FloatArray, ImuSeries
 from ..drivers import Checks, SensorCheck
 from ..drivers import Sample as Sensed
 from ..drivers.errors import SourceError
-from ..options import AdapterOptions, Covariance, Mounting, Play, Reports, Units, node_specs
-from ..options import Input as InputOptions
+from ..settings.nodes import AdapterOptions, Covariance, Mounting, Play, Reports, Units, node_specs
+from ..settings.nodes import Input as InputOptions
 from ..timing import ClockModel, Stamping
-from . import qos, sources
-from .conversion import Conversion
-from .corrections import FOOT_UNKNOWN, of_sensor
-from .device import Device
-from .diagnostics import WARN, Rates, Reporter, Status
-from .magnetic import FieldOutput
-from .messages import imu_values, new_imu, set_imu_values, set_time, to_ns
-from .parameters import declare, group
-from .player import Player, Sample, in_order, wait_to_begin
-from .refusals import Refusals, counts, in_words
-from .shell import Graph, Program, run_nodes
-from .stamper import Stamper
-from .suspicion import UnitSuspicion
-from .watch import Input, Watch, watched_publisher
+from .adapter import source_uri as sources
+from .adapter.conversion import Conversion
+from .adapter.device import Device
+from .adapter.losses import Refusals, counts, in_words
+from .inputs.calibrations import FOOT_UNKNOWN, of_sensor
+from .inputs.field_topics import FieldOutput
+from .inputs.stamper import Stamper
+from .inputs.unit_check import UnitSuspicion
+from .playback.player import Player, Sample, in_order, wait_to_begin
+from .ros import qos
+from .ros.declared_parameters import declare, group
+from .ros.diagnostics import WARN, Rates, Reporter, Status
+from .ros.messages import imu_values, new_imu, set_imu_values, set_time, to_ns
+from .ros.program import Graph, Program, run_nodes
+from .ros.watched_input import Input, Watch, watched_publisher
 
 MAG = "imu/mag"
 PROGRAM = Program(

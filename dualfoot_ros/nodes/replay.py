@@ -12,20 +12,20 @@ from rclpy.task import Future
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 
-from ..core.series import ImuSeries
-from ..core.trajectory import FEET
-from ..options import Play, ReplayOptions, Reports, node_specs
+from ..core.results.trajectory import FEET
+from ..core.samples.series import ImuSeries
 from ..recording import Recording, RecordingError, read_bag
-from . import qos
-from .diagnostics import Reporter, Status
-from .magnetic import TOPICS as MAGNETIC
-from .magnetic import FieldOutput
-from .messages import new_imu, set_imu_values, set_time
-from .parameters import declare, group
-from .player import Player, Sample, Series, in_order
-from .pressure import TOPICS, PressureOutputs
-from .shell import Graph, Program, run_nodes
-from .watch import watched_publisher
+from ..settings.nodes import Play, ReplayOptions, Reports, node_specs
+from .inputs.field_topics import TOPICS as MAGNETIC
+from .inputs.field_topics import FieldOutput
+from .inputs.pressure_topics import TOPICS, PressureOutputs
+from .playback.player import Player, Sample, Series, in_order
+from .ros import qos
+from .ros.declared_parameters import declare, group
+from .ros.diagnostics import Reporter, Status
+from .ros.messages import new_imu, set_imu_values, set_time
+from .ros.program import Graph, Program, run_nodes
+from .ros.watched_input import watched_publisher
 
 DEPTH = 2000
 CLOCK_STEP_NS = 5_000_000

@@ -8,19 +8,19 @@ from typing import Any
 from rclpy.node import Node
 from sensor_msgs.msg import Imu
 
-from ..core.series import ImuPair
-from ..core.trajectory import FEET
-from ..options import Input as InputOptions
-from ..options import Reports, node_specs
+from ..core.results.trajectory import FEET
+from ..core.samples.series import ImuPair
+from ..settings.nodes import Input as InputOptions
+from ..settings.nodes import Reports, node_specs
 from ..timing import Aligner, ClockModel, Stamping, Sync
-from . import qos
-from .apart import Apart
-from .diagnostics import Rates, Reporter, Status
-from .messages import imu_values, new_imu, set_imu_values, set_time, to_ns
-from .parameters import declare, group
-from .shell import Graph, Program, run_nodes
-from .stamper import Stamper
-from .watch import Input, Watch, watched_publisher
+from .inputs.stamp_gap import Apart
+from .inputs.stamper import Stamper
+from .ros import qos
+from .ros.declared_parameters import declare, group
+from .ros.diagnostics import Rates, Reporter, Status
+from .ros.messages import imu_values, new_imu, set_imu_values, set_time, to_ns
+from .ros.program import Graph, Program, run_nodes
+from .ros.watched_input import Input, Watch, watched_publisher
 
 PROGRAM = Program(
     "time_sync",

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..core.series import FloatArray, ImuSeries, PoseSeries, PressureSeries
-from ..core.trajectory import FEET
-from . import messages
+from ..core.results.trajectory import FEET
+from ..core.samples.series import FloatArray, ImuSeries, PoseSeries, PressureSeries
+from . import message_tables as messages
 from .errors import RecordingError
 from .open_bag import iterate, opened
 from .recording import Recording

@@ -25,8 +25,8 @@ from typing import Any
 
 import numpy as np
 
-from ..core.series import FloatArray
-from ..core.trajectory import FEET
+from ..core.results.trajectory import FEET
+from ..core.samples.series import FloatArray
 from .atomic import write_text
 from .errors import RecordingError
 

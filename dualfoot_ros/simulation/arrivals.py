@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.parameters import Parameters, parameter
-from ..core.series import FloatArray, IntArray
+from ..core.samples.series import FloatArray, IntArray
 
 
 @dataclass(frozen=True)

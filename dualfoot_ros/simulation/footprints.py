@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.series import FloatArray
-from .config import WalkConfig
+from ..core.samples.series import FloatArray
 from .errors import SimulationError
 from .routes import Route
+from .walk_config import WalkConfig
 
 # Shares of the time from heel-off to flat foot, as seen on real walks (docs/simulation.md).
 TOE_OFF = 0.27

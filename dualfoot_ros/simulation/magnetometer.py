@@ -13,7 +13,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ..core.parameters import Parameters, parameter
-from ..core.series import FloatArray, PoseSeries
+from ..core.samples.series import FloatArray, PoseSeries
 
 MICRO = 1e-6
 WAVES = 24

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import BSpline
 
-from ..core.series import FloatArray
+from ..core.samples.series import FloatArray
 from . import gait
-from .config import WalkConfig, rotation_zyx
 from .footprints import HEEL_STRIKE, Footprints
 from .noise import smooth_noise, smooth_rate_noise
 from .routes import Route
+from .walk_config import WalkConfig, rotation_zyx
 
 KNOT_S = 0.01
 MARGIN_S = 0.5

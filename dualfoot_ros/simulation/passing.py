@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.series import FloatArray
-from .config import WalkConfig
+from ..core.samples.series import FloatArray
 from .footprints import HEEL_STRIKE, TOE_OFF, Footprints
 from .motion import ShoeMotion, Walker
 from .routes import Route
+from .walk_config import WalkConfig
 
 ROUNDS = 4
 

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..core.series import FloatArray
+from ..core.samples.series import FloatArray
 from .errors import SimulationError
 
 

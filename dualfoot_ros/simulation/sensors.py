@@ -12,7 +12,7 @@ import numpy as np
 from scipy.signal import lfilter
 
 from ..core.parameters import Parameters, parameter
-from ..core.series import FloatArray
+from ..core.samples.series import FloatArray
 from .errors import SimulationError
 
 _RATE = "rad/s"

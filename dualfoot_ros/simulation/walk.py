@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from ..core.series import FloatArray, ImuSeries, IntArray, PoseSeries, PressureSeries
-from ..core.trajectory import FEET
-from .barometer import BarometerConfig, barometers
+from ..core.results.trajectory import FEET
+from ..core.samples.series import FloatArray, ImuSeries, IntArray, PoseSeries, PressureSeries
+from .air_pressure import BarometerConfig, barometers
 from .clocks import ClockConfig, Sampling, sample_times
-from .config import WalkConfig
 from .errors import SimulationError
 from .footprints import Footprints, plan
 from .magnetometer import MagnetometerConfig, Surroundings, sense_field
@@ -23,6 +22,7 @@ from .passing import NO_PASSES, Passes, pass_plan, passes, tune
 from .routes import Route, route
 from .sampling import interval_means
 from .sensors import SensorConfig, SensorErrors, draw_pair, measure
+from .walk_config import WalkConfig
 
 START_NS = 1_750_000_000_000_000_000
 SIDES = (1, -1)

@@ -6,17 +6,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.series import ImuSeries
-from .config import Sync
-from .gate import Gate
+from ..core.samples.series import ImuSeries
+from .pairing.pairing_config import Sync
+from .pairing.stream_gate import Gate
 
 
 class Clean(NamedTuple):
     """What is left of a series.
 
-    ``counters`` are those of :class:`dualfoot_ros.timing.gate.Gate`; ``restart_at`` is the sample
-    at which it was clear that the stamps had jumped back for good (nothing from there on is in
-    the series), or None.
+    ``counters`` are those of :class:`dualfoot_ros.timing.pairing.stream_gate.Gate`;
+    ``restart_at`` is the sample at which it was clear that the stamps had jumped back for good
+    (nothing from there on is in the series), or None.
     """
 
     series: ImuSeries

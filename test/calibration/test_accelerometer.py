@@ -10,8 +10,8 @@ from dualfoot_ros.calibration.accelerometer import MODELS, fit_accelerometer, rm
 from dualfoot_ros.calibration.cross_validation import cross_validate
 from dualfoot_ros.calibration.sources import load_sources
 from dualfoot_ros.calibration.static import segments_of
+from dualfoot_ros.inspection.standstill import first_stand
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
-from dualfoot_ros.recording.standstill import first_stand
 
 from .rest import GRAVITY, SIX, segments, well_spread
 

@@ -5,9 +5,9 @@ import pytest
 
 from dualfoot_ros.calibration import CalibrationError
 from dualfoot_ros.calibration.gyro import fit_gyro
-from dualfoot_ros.calibration.parameters import parameter_text
+from dualfoot_ros.calibration.parameter_text import parameter_text
 from dualfoot_ros.core import ImuSeries
-from dualfoot_ros.presets import load_config
+from dualfoot_ros.settings.presets import load_config
 
 from .rest import joined, moving, resting
 

@@ -12,9 +12,9 @@ from dualfoot_ros.calibration.gyro import fit_gyro
 from dualfoot_ros.calibration.soundness import doubts
 from dualfoot_ros.calibration.sources import load_sources
 from dualfoot_ros.calibration.static import segments_of
+from dualfoot_ros.inspection.standstill import first_stand
+from dualfoot_ros.inspection.stuck_values import held_at_rest
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
-from dualfoot_ros.recording.standstill import first_stand
-from dualfoot_ros.recording.stuck import held_at_rest
 from dualfoot_ros.simulation import WalkConfig, grade, simulate
 
 from .rest import export, joined, moving, resting

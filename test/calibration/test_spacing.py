@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.calibration import CalibrationError
-from dualfoot_ros.calibration.parameters import parameter_text
+from dualfoot_ros.calibration.parameter_text import parameter_text
 from dualfoot_ros.calibration.spacing import fit_spacing
 from dualfoot_ros.core import DualFootTracker, TrackerConfig
-from dualfoot_ros.core.trajectory import EventKind
-from dualfoot_ros.presets import load_config
-from dualfoot_ros.recording.stances import free_tracks
+from dualfoot_ros.core.results.trajectory import EventKind
+from dualfoot_ros.inspection.stance_statistics import free_tracks
+from dualfoot_ros.settings.presets import load_config
 from dualfoot_ros.simulation import WalkConfig, simulate
 from dualfoot_ros.timing import align
 

@@ -11,7 +11,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.cli.main import main
-from dualfoot_ros.evaluation.association import truth_at
+from dualfoot_ros.evaluation.frames.association import truth_at
 from dualfoot_ros.recording import read_bag
 from dualfoot_ros.simulation import ROUTES, SensorConfig, WalkConfig, simulate
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from dualfoot_ros.core import DualFootTracker, Event, EventKind, Trajectory
 from dualfoot_ros.core.kernel import layout as at
-from dualfoot_ros.core.rows import turn_rows
+from dualfoot_ros.core.results.rows import turn_rows
 
 from .harness import Pairs
 

@@ -12,7 +12,7 @@ from dualfoot_ros.core import ImuPair, ImuSeries, TrackerConfig
 from dualfoot_ros.core.alignment import Standstill
 from dualfoot_ros.core.kernel import Engine, compiled, interpreted
 from dualfoot_ros.core.kernel import layout as at
-from dualfoot_ros.core.series import stack_pairs
+from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.core.session import Session
 from dualfoot_ros.simulation import SensorConfig, WalkConfig, simulate
 

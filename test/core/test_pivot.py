@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core import DualFootTracker, TrackerConfig
-from dualfoot_ros.core.trajectory import stance_middles
+from dualfoot_ros.core.results.trajectory import stance_middles
 from dualfoot_ros.evaluation import track
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dualfoot_ros.core import DualFootTracker, EventKind, ImuPair, TrackerConfig
-from dualfoot_ros.core.update import Update
+from dualfoot_ros.core.results.update import Update
 
 from .harness import quick_engine, standing_samples, walk
 

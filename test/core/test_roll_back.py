@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from dualfoot_ros.core import EventKind, TrackerConfig
 from dualfoot_ros.core.constraints.idc import Config, Method
 from dualfoot_ros.core.constraints.method import Request
-from dualfoot_ros.core.estimate import Outcome
+from dualfoot_ros.core.joint_estimate import Outcome
 from dualfoot_ros.core.kernel import layout as at
 
 from .harness import Pairs, follow, open_session, quick_engine, standing_samples, state_bits, walk

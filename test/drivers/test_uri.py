@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dualfoot_ros.drivers import SCHEMES, SourceError, make_transport, parse_uri
-from dualfoot_ros.drivers.address import parse as parse_address
+from dualfoot_ros.drivers.transports.address import parse as parse_address
 
 
 def test_a_serial_source_names_port_speed_and_format():

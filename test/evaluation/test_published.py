@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import DualFootTracker, FootTrajectory, ImuPair, TrackerConfig
-from dualfoot_ros.core.series import stack_pairs
+from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.evaluation import EvaluationError, evaluate, published_trajectory
 from dualfoot_ros.simulation import WalkConfig, simulate
 from dualfoot_ros.timing import align

@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.core.series import PoseSeries
-from dualfoot_ros.evaluation.align import Options
+from dualfoot_ros.core.samples.series import PoseSeries
 from dualfoot_ros.evaluation.errors import EvaluationError
 from dualfoot_ros.evaluation.evaluate import evaluate
-from dualfoot_ros.evaluation.frames import Align, Pair, YawTransform
-from dualfoot_ros.evaluation.tum import write_tracks
+from dualfoot_ros.evaluation.frames.gauge import Options
+from dualfoot_ros.evaluation.frames.yaw_transform import Align, Pair, YawTransform
+from dualfoot_ros.evaluation.reports.tum import write_tracks
 from dualfoot_ros.recording.reference import Reference
 
 from .walks import perfect, rectangle

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from dualfoot_ros.core.series import PoseSeries
-from dualfoot_ros.core.trajectory import Event, EventKind, FootTrajectory, Trajectory
+from dualfoot_ros.core.results.trajectory import Event, EventKind, FootTrajectory, Trajectory
+from dualfoot_ros.core.samples.series import PoseSeries
 
 RATE = 50
 STEP_S = 0.6

@@ -3,7 +3,7 @@
 import numpy as np
 from sensor_msgs.msg import Imu
 
-from dualfoot_ros.nodes.messages import new_imu, set_imu_values, set_time
+from dualfoot_ros.nodes.ros.messages import new_imu, set_imu_values, set_time
 
 GRAVITY = 9.80665
 STANDING = np.array([0.0, 0.0, GRAVITY, 0.0, 0.0, 0.0])

@@ -10,13 +10,13 @@ from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
 from dualfoot_ros.core import DualFootTracker, ImuPair, TrackerConfig
-from dualfoot_ros.core.series import stack_pairs
-from dualfoot_ros.core.trajectory import EventKind
-from dualfoot_ros.nodes import qos
+from dualfoot_ros.core.results.trajectory import EventKind
+from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.nodes.fusion import FusionNode
-from dualfoot_ros.nodes.messages import pose_of, rotation_matrix, to_ns, yaw_quaternion
-from dualfoot_ros.options import Input as InputOptions
+from dualfoot_ros.nodes.ros import qos
+from dualfoot_ros.nodes.ros.messages import pose_of, rotation_matrix, to_ns, yaw_quaternion
 from dualfoot_ros.recording import read_bag
+from dualfoot_ros.settings.nodes import Input as InputOptions
 from dualfoot_ros.timing import align
 
 from .samples import STANDING, STEP_NS, imu, status_values

@@ -5,9 +5,9 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from sensor_msgs.msg import Imu
 
-from dualfoot_ros.nodes import qos
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
-from dualfoot_ros.nodes.messages import imu_values, to_ns
+from dualfoot_ros.nodes.ros import qos
+from dualfoot_ros.nodes.ros.messages import imu_values, to_ns
 from dualfoot_ros.recording import read_bag
 
 from .samples import STANDING, STEP_NS, imu

@@ -3,9 +3,9 @@ import pytest
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 
-from dualfoot_ros.nodes import qos
-from dualfoot_ros.nodes.messages import imu_values, to_ns
 from dualfoot_ros.nodes.replay import ReplayNode
+from dualfoot_ros.nodes.ros import qos
+from dualfoot_ros.nodes.ros.messages import imu_values, to_ns
 from dualfoot_ros.recording import Recording, RecordingError, read_bag, write_bag
 
 FEET = ("left", "right")

@@ -3,10 +3,10 @@ import time
 import numpy as np
 from sensor_msgs.msg import Imu
 
-from dualfoot_ros.nodes import qos
-from dualfoot_ros.nodes.diagnostics import ERROR, WARN, Status
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
-from dualfoot_ros.nodes.messages import imu_values, to_ns
+from dualfoot_ros.nodes.ros import qos
+from dualfoot_ros.nodes.ros.diagnostics import ERROR, WARN, Status
+from dualfoot_ros.nodes.ros.messages import imu_values, to_ns
 from dualfoot_ros.nodes.time_sync import TimeSyncNode
 from dualfoot_ros.recording import read_bag
 from dualfoot_ros.timing import align

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from dualfoot_ros.core.trajectory import stance_bounds
+from dualfoot_ros.core.results.trajectory import stance_bounds
 from dualfoot_ros.simulation import Gait, WalkConfig, grade, simulate, walk
 
 NS = 1_000_000_000

@@ -15,8 +15,8 @@ import numpy as np
 
 from ..config_aids import Aids
 from ..constraints.method import Gait, Method, Request, StancePhase
-from ..estimate import JointEstimate, Outcome
-from ..trajectory import FEET, EventKind
+from ..joint_estimate import JointEstimate, Outcome
+from ..results.trajectory import FEET, EventKind
 from .pressure import PressureLog
 
 WORN = (*FEET, "both")  # where a sensor is: "both" serves both feet

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..series import FloatArray
+from ..samples.series import FloatArray
 from .log import Log
 
 RANGE_T = (1e-6, 1e-3)  # beyond these it is not near the earth's (25 to 65 uT), or not in T

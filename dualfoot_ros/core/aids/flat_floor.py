@@ -12,9 +12,9 @@ from collections.abc import Sequence
 
 from ..config_aids import Aids
 from ..constraints.method import Gait, Method, Request, StancePhase
-from ..estimate import JointEstimate, Outcome
-from ..series import FloatArray
-from ..trajectory import EventKind
+from ..joint_estimate import JointEstimate, Outcome
+from ..results.trajectory import EventKind
+from ..samples.series import FloatArray
 
 
 class FlatFloor(Method):

@@ -10,8 +10,8 @@ import numpy as np
 from ..config_aids import Aids
 from ..constraints.method import Method
 from ..errors import ConfigError
-from ..series import FieldSeries, FloatArray
-from ..trajectory import FEET
+from ..results.trajectory import FEET
+from ..samples.series import FieldSeries, FloatArray
 from .barometer import WORN, Barometer
 from .field import FieldLog
 from .flat_floor import FlatFloor

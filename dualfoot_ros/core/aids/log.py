@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from typing import Generic, TypeVar
 
-from ..gate import TIME_JUMP_NS
+from ..samples.pair_gate import TIME_JUMP_NS
 
 T = TypeVar("T")
 

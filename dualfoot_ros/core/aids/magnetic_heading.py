@@ -32,9 +32,9 @@ import numpy as np
 
 from ..config_aids import Aids
 from ..constraints.method import Gait, Method, Request, StancePhase
-from ..estimate import JointEstimate, Outcome
-from ..series import FloatArray
-from ..trajectory import FEET, EventKind
+from ..joint_estimate import JointEstimate, Outcome
+from ..results.trajectory import FEET, EventKind
+from ..samples.series import FloatArray
 from .field import FieldLog, NavigationField, mean_field
 
 AROUND_NS = 100_000_000  # of the middle of a stance the field is averaged over

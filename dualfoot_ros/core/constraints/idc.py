@@ -21,9 +21,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..estimate import JointEstimate, relative_row
+from ..joint_estimate import JointEstimate, relative_row
 from ..parameters import parameter
-from .distance import Matrix, Vector, exact, iterate
+from .distance_solvers import Matrix, Vector, exact, iterate
 from .minimum_moment import AtMinimumDistance, MomentParameters
 
 

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..estimate import JointEstimate, Outcome, relative_row
+from ..joint_estimate import JointEstimate, Outcome, relative_row
 from ..parameters import Parameters, parameter
-from .distance import exact, norm, quadratic
+from .distance_solvers import exact, norm, quadratic
 from .method import Gait, Request
 from .method import Method as Base
 

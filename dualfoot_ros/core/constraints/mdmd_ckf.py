@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..estimate import JointEstimate
-from .distance import Matrix, Vector
+from ..joint_estimate import JointEstimate
+from .distance_solvers import Matrix, Vector
 from .minimum_moment import AtMinimumDistance, MomentParameters
 from .sigma_points import observe_distance
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..estimate import JointEstimate, relative_row
-from .distance import Matrix, Vector, norm
+from ..joint_estimate import JointEstimate, relative_row
+from .distance_solvers import Matrix, Vector, norm
 from .minimum_moment import AtMinimumDistance, MomentParameters
 
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..estimate import JointEstimate
+from ..joint_estimate import JointEstimate
 from ..parameters import parameter
-from .distance import Matrix, Vector
+from .distance_solvers import Matrix, Vector
 from .minimum_moment import AtMinimumDistance, MomentParameters
 from .sigma_points import observe_distance
 

@@ -7,10 +7,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from ..estimate import JointEstimate, Outcome
-from ..series import FloatArray
-from ..trajectory import EventKind
-from .spacing import Spacing
+from ..joint_estimate import JointEstimate, Outcome
+from ..results.trajectory import EventKind
+from ..samples.series import FloatArray
+from .learnt_spacing import Spacing
 
 
 @dataclass(frozen=True)

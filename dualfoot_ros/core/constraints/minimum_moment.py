@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 
-from ..estimate import JointEstimate, Outcome
+from ..joint_estimate import JointEstimate, Outcome
 from ..parameters import Parameters, parameter
-from .distance import Matrix, Vector, norm, quadratic
+from .distance_solvers import Matrix, Vector, norm, quadratic
+from .learnt_spacing import Spacing
 from .method import Gait, Method, Request, StancePhase
-from .spacing import Spacing
 
 
 @dataclass(frozen=True)

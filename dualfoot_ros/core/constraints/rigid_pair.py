@@ -24,9 +24,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..estimate import JointEstimate, Outcome
+from ..joint_estimate import JointEstimate, Outcome
 from ..parameters import Parameters, parameter
-from ..series import FloatArray
+from ..samples.series import FloatArray
 from .method import Gait, Request
 from .method import Method as Base
 

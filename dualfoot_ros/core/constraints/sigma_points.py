@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..estimate import JointEstimate
-from ..series import FloatArray
-from .distance import Vector
+from ..joint_estimate import JointEstimate
+from ..samples.series import FloatArray
+from .distance_solvers import Vector
 
 
 def square_root(covariance: FloatArray) -> FloatArray:

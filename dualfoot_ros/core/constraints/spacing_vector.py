@@ -20,11 +20,11 @@ from functools import partial
 
 import numpy as np
 
-from ..estimate import JointEstimate, Outcome, relative_row
+from ..joint_estimate import JointEstimate, Outcome, relative_row
 from ..parameters import Parameters, parameter
+from .learnt_spacing import Spacing
 from .method import Gait, Request, StancePhase
 from .method import Method as Base
-from .spacing import Spacing
 from .varying_distance import feet_adjacent
 
 

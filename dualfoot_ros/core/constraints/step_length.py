@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..estimate import JointEstimate, Outcome
+from ..joint_estimate import JointEstimate, Outcome
 from ..parameters import Parameters, parameter
 from .method import Gait, Request
 from .method import Method as Base

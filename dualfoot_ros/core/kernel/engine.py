@@ -24,7 +24,8 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from . import covariance, detector, epoch, layout, strapdown, turn, update
+from . import covariance, detector, epoch, layout, strapdown, turn
+from . import measurement_update as update
 
 MODULES = (strapdown, covariance, update, detector, epoch, turn)
 ENTRIES = ("advance", "rerun", "restore", "set_flags", "emit", "collect", "correct", "turn")

@@ -49,8 +49,8 @@ from .layout import (
     Z_LEFT,
     ZUPT_INFO,
 )
+from .measurement_update import zupt
 from .strapdown import mechanize
-from .update import zupt
 
 
 def filter_epoch(w, n, epoch):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core.mounting import axes_matrix
-from ...core.series import FloatArray
+from ...core.samples.mounting import axes_matrix
+from ...core.samples.series import FloatArray
 
 IDENTITY = "+x+y+z"
 RIGHT_FRONT_UP = "+y-x+z"  # forward is y, left is against x

@@ -12,14 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from ...core.series import FloatArray, ImuSeries, IntArray
+from ...core.samples.series import FloatArray, ImuSeries, IntArray
 from ..errors import RecordingError
 from ..recording import Recording
 from ..reference import Reference
 from . import axes
-from .counter import same_wrap, unwrap_us
 from .dual_feet_walks import reference_of
 from .options import ImportOptions
+from .sample_counter import same_wrap, unwrap_us
 
 NANOTESLA = 1e-9
 FEET = {"left": "imu0L", "right": "imu0R"}

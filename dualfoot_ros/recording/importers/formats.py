@@ -9,7 +9,7 @@ from typing import cast
 
 import numpy as np
 
-from ...core.series import ImuSeries
+from ...core.samples.series import ImuSeries
 from ..errors import RecordingError
 from ..recording import Recording
 from .options import ImportOptions

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...core.series import FloatArray, PressureSeries
+from ...core.samples.series import FloatArray, PressureSeries
 from ..errors import RecordingError
 
 TIMES = {"stamp_ns": 1.0, "time_us": 1e3, "SampleTimeFine": 1e3, "time_ms": 1e6, "time_s": 1e9}

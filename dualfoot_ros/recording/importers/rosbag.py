@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from ...core.series import FloatArray, ImuSeries
-from ...core.trajectory import FEET
+from ...core.results.trajectory import FEET
+from ...core.samples.series import FloatArray, ImuSeries
 from ...core.units import FORCE_UNITS, RATE_UNITS
 from ..errors import RecordingError
 from ..read import read_bag

@@ -12,12 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ...core.series import FloatArray, ImuSeries
+from ...core.samples.series import FloatArray, ImuSeries
 from ..errors import RecordingError
 from ..recording import Recording
 from . import axes
-from .counter import same_wrap, unwrap_us
 from .options import ImportOptions
+from .sample_counter import same_wrap, unwrap_us
 
 FIRST_COLUMN = "PacketCounter"
 STAMP = "SampleTimeFine"

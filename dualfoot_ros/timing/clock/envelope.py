@@ -7,9 +7,9 @@ from collections import deque
 
 import numpy as np
 
-from ...core.series import FloatArray
+from ...core.samples.series import FloatArray
+from .event_waits import EventWaits
 from .line import REACH_S, Line, below, between
-from .waits import EventWaits
 
 SCALE_S = 0.005  # mean delay of a bin's fastest arrival above the line: guess worth two bins,
 SCALE_LIMITS_S = (2.0e-5, 0.05)  # and what it can be

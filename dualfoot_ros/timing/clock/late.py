@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .suspects import Arrival
+from .outliers import Arrival
 
 
 class LateArrivals:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .config import ClockModel
+from .clock_config import ClockModel
 from .envelope import LowerEnvelope
 from .line import Line
 

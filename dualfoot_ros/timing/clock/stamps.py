@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ...core.parameters import Parameters, parameter
-from ...core.trajectory import FEET
-from .config import ClockModel
-from .device import DeviceClock
+from ...core.results.trajectory import FEET
+from .clock_config import ClockModel
+from .device_clock import DeviceClock
 from .state import ClockState
 
 POLICIES = ("header", "device", "arrival")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core.series import IntArray
-from ..clock.config import ClockModel
-from ..clock.device import DeviceClock
+from ...core.samples.series import IntArray
+from ..clock.clock_config import ClockModel
+from ..clock.device_clock import DeviceClock
 from ..errors import TimingError
 from .result import Offset
 

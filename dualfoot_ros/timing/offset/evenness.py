@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core.series import FloatArray
+from ...core.samples.series import FloatArray
 from .correlation import STEP_S, Correlation, Signal, correlate
 from .middles import Middle
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.series import FloatArray, ImuSeries
+from ...core.samples.series import FloatArray, ImuSeries
 from ..errors import TimingError
 from .correlation import STEP_S, Signal, signal_of
 from .result import Offset

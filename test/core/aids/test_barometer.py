@@ -16,7 +16,7 @@ from dualfoot_ros.core import (
     TrackerConfig,
 )
 from dualfoot_ros.core.aids import height_pressure
-from dualfoot_ros.core.trajectory import stance_bounds
+from dualfoot_ros.core.results.trajectory import stance_bounds
 from dualfoot_ros.simulation import BarometerConfig, SensorConfig, WalkConfig, simulate
 from dualfoot_ros.timing import align
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import DualFootTracker, EventKind, TrackerConfig
-from dualfoot_ros.core.trajectory import stance_bounds
+from dualfoot_ros.core.results.trajectory import stance_bounds
 
 from ..following import live, same_bits
 from ..harness import quick_engine, walk

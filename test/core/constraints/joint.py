@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from dualfoot_ros.core.constraints.method import StancePhase
-from dualfoot_ros.core.estimate import JointEstimate
+from dualfoot_ros.core.joint_estimate import JointEstimate
 from dualfoot_ros.core.kernel import interpreted
 from dualfoot_ros.core.kernel import layout as at
-from dualfoot_ros.core.workspace import Workspace
+from dualfoot_ros.core.kernel.workspace import Workspace
 
 from ..dense import joseph
 from ..kernel.states import error_between, nominal, random_workspace

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from scipy.optimize import minimize
 
 from dualfoot_ros.core.constraints import idc
-from dualfoot_ros.core.constraints.distance import exact, iterate
-from dualfoot_ros.core.estimate import JointEstimate, relative_row
+from dualfoot_ros.core.constraints.distance_solvers import exact, iterate
+from dualfoot_ros.core.joint_estimate import JointEstimate, relative_row
 from dualfoot_ros.core.kernel import interpreted
 from dualfoot_ros.core.kernel import layout as at
 

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from dualfoot_ros.core import DualFootTracker, EventKind, TrackerConfig
 from dualfoot_ros.core.constraints.rigid_pair import Config, Method
 from dualfoot_ros.core.kernel import layout as at
-from dualfoot_ros.core.series import stack_pairs
+from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.simulation import (
     SensorConfig,
     WalkConfig,

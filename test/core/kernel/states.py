@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.kernel import layout as at
-from dualfoot_ros.core.workspace import Workspace
+from dualfoot_ros.core.kernel.workspace import Workspace
 
 SCALES = np.repeat([0.3, 0.1, 0.02, 1e-3, 0.05], 3)
 SAMPLE = at.RINGS + 1

@@ -11,7 +11,7 @@ from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.constraints.method import StancePhase
 from dualfoot_ros.core.kernel import layout as at
 from dualfoot_ros.core.kernel.detector import glrt
-from dualfoot_ros.core.workspace import Workspace
+from dualfoot_ros.core.kernel.workspace import Workspace
 
 CONFIG = TrackerConfig(method="zupt")
 

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.kernel import layout as at
 from dualfoot_ros.core.kernel.strapdown import mechanize, rotation_increment
-from dualfoot_ros.core.workspace import Workspace
+from dualfoot_ros.core.kernel.workspace import Workspace
 
 from ..harness import GRAVITY, quick_engine
 

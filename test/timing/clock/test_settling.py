@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from dualfoot_ros.simulation.arrivals import BleLink
 from dualfoot_ros.timing import ClockModel, DeviceClock
 
-from .test_device import START, errors_ms, follow, recording
+from .test_device_clock import START, errors_ms, follow, recording
 
 drifts = st.floats(-300.0, 300.0)
 seeds = st.integers(0, 10_000)

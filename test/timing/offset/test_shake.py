@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.simulation import ClockConfig, WalkConfig, simulate
 from dualfoot_ros.timing import TimingError, offset_by_motion
-from dualfoot_ros.timing.offset import motion
+from dualfoot_ros.timing.offset import motion_offset as motion
 from dualfoot_ros.timing.offset.shake import find_shakes
 
 OFFSET_S = 12.5

@@ -1,0 +1,27 @@
+"""What was measured, as a parameter file that ``--config`` and the nodes take."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from ..core.config import all_specs
+from ..core.parameters import check
+from ..settings.files import parameter_file
+
+
+def parameter_text(values: Mapping[str, float], remarks: Sequence[str]) -> str:
+    """Return a parameter file with these tracker parameters, ``remarks`` first as comments.
+
+    Raises
+    ------
+    ConfigError
+        When a value is out of the range of its parameter.
+    """
+    specs = [
+        replace(spec, default=check(spec, values[spec.name]))
+        for spec in all_specs()
+        if spec.name in values
+    ]
+    comments = "".join(f"# {line}\n" for line in remarks)
+    return f"{comments}\n{parameter_file('/**', specs)}"

@@ -1,0 +1,117 @@
+"""What the kinds of ``dualfoot calibrate`` have in common: sources, output, sentences."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ...core.results.trajectory import FEET
+from ..arguments import add_topic_arguments
+from ..progress import progress
+
+if TYPE_CHECKING:
+    from ...calibration import Calibration
+    from ...core import ImuSeries
+
+
+def add_sensor_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the sources of sensors at rest and the file to write."""
+    parser.add_argument(
+        "source",
+        nargs="+",
+        type=Path,
+        metavar="SOURCE",
+        help="Xsens DOT exports (.csv) of one sensor, or bags",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE.yaml",
+        help="calibration file to write, with a figure beside it; a calibration file that is "
+        "there already is added to",
+    )
+    parser.add_argument(
+        "--foot", choices=("left", "right"), help="foot the exports are of, or the one of a bag"
+    )
+    parser.add_argument(
+        "--axes",
+        default="+x+y+z",
+        metavar="AXES",
+        help="device axes that point forward, left and up, as in 'dualfoot import' "
+        "(exports only; default: %(default)s)",
+    )
+    add_output_arguments(parser)
+    add_topic_arguments(parser)
+
+
+def add_output_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add how results are shown."""
+    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
+    parser.add_argument("--no-plots", action="store_true", help="draw no figure")
+
+
+def load(args: argparse.Namespace) -> dict[str, list[tuple[str, ImuSeries]]]:
+    """Read the sources by sensor."""
+    from ...calibration.sources import load_sources
+    from ...recording import Topics
+
+    default = Topics()
+    topics = Topics(
+        left=replace(default.left, imu=args.left_topic),
+        right=replace(default.right, imu=args.right_topic),
+    )
+    with progress("reading"):
+        return load_sources(args.source, args.foot, axes=args.axes, topics=topics)
+
+
+def existing(path: Path | None) -> Calibration:
+    """Return what a calibration file to be written holds already; refuse any other file."""
+    from ...calibration import Calibration
+    from ...recording.atomic import check_file
+
+    if path is None or not path.exists():
+        return Calibration()
+    check_file(path, overwrite=True)  # a device could be read without end
+    return Calibration.load(path)
+
+
+def figure_path(output: Path, what: str, sensors: Sequence[str] = ()) -> Path:
+    """Return where the figure beside ``output`` goes; one foot alone has its name in it."""
+    one = len(sensors) == 1 and sensors[0] in FEET and sensors[0] not in output.stem
+    foot = f"{sensors[0]}_" if one else ""
+    return output.with_name(f"{output.stem}_{foot}{what}.png")
+
+
+def show(args: argparse.Namespace, facts: Mapping[str, Any], lines: list[str]) -> None:
+    """Print ``facts`` as JSON or ``lines`` for people."""
+    from ...evaluation.plain import plain
+
+    print(json.dumps(plain(facts), allow_nan=False) if args.json else "\n".join(lines))
+
+
+def warn(sentence: str) -> None:
+    """Say on standard error what could not be told."""
+    print(f"dualfoot calibrate: warning: {sentence}", file=sys.stderr)
+
+
+def warn_of(found: Mapping[str, Sequence[tuple[str, ImuSeries]]], triad: str) -> None:
+    """Say what is wrong with recordings that tell of ``triad`` all the same."""
+    from ...calibration.soundness import doubts
+    from ...calibration.static import still_spans
+    from ...timing import clean
+
+    for name, series in (named for sources in found.values() for named in sources):
+        good = clean(series).series
+        for sentence in doubts(series, name, triad, [good[s] for s in still_spans(good)]):
+            warn(sentence)
+
+
+def numbers(values: Any, digits: int) -> str:
+    """Return a vector as text."""
+    return "(" + ", ".join(f"{v:+.{digits}f}" for v in values) + ")"

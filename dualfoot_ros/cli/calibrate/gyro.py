@@ -1,0 +1,160 @@
+"""``dualfoot calibrate gyro``: bias and its uncertainty, noise from the Allan deviation."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import common as common
+
+if TYPE_CHECKING:
+    from ...calibration.gyro import GyroFit
+
+HELP = "gyro bias from a standstill, and the noise of gyro and accelerometer from a long one"
+FIRST = "  dualfoot calibrate gyro night.csv --foot right -o right.yaml\n"
+EXAMPLES = f"""\
+examples:
+{FIRST}\
+  dualfoot calibrate gyro desk -o both.yaml                         a bag of both sensors
+  dualfoot calibrate gyro desk --parameters noise.yaml              noise.* for --config
+  dualfoot calibrate gyro desk --json
+
+A few seconds give the bias, minutes the white noise, hours the bias instability and what drives
+the bias. What a sensor at rest shows is the least the filter has to reckon with: scale factors and
+the shock of the steps come on top, so noise.yaml is a lower bound, not a recommendation.
+"""
+DEG = 180.0 / math.pi
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    common.add_sensor_arguments(parser)
+    parser.add_argument(
+        "--parameters",
+        type=Path,
+        metavar="FILE.yaml",
+        help="write the noise parameters of the filter that the standstill tells",
+    )
+    parser.add_argument(
+        "--overwrite", action="store_true", help="replace an existing file of --parameters"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Fit, write, print; return the exit code."""
+    from ...calibration.gyro import fit_gyro
+
+    _check_outputs(args)
+    calibration = common.existing(args.output)
+    loaded = common.load(args)
+    found = {name: fit_gyro(sources) for name, sources in loaded.items()}
+    noise = _noise(found)
+    files = [] if args.parameters is None else [_write_parameters(args.parameters, found, noise)]
+    if args.output is not None:
+        for name, fit in found.items():
+            calibration = calibration.with_triad(name, "gyro", fit.triad())
+        calibration.save(args.output)
+        files.append(args.output)
+        if not args.no_plots:
+            files.append(_draw(found, args.output))
+    lines = [line for name, fit in found.items() for line in _words(name, fit)]
+    lines += [f"{name}: {value:.3g}" for name, value in noise.items()]
+    facts = {name: _facts(fit) for name, fit in found.items()}
+    shown = {**facts, "parameters": noise, "files": [str(f) for f in files]}
+    common.show(args, shown, [*lines, *map(str, files)])
+    common.warn_of(loaded, "gyro")
+    for name, fit in found.items():
+        for sentence in fit.unseen():
+            common.warn(f"{name}: {sentence}")
+    return 0
+
+
+def _check_outputs(args: argparse.Namespace) -> None:
+    """Refuse a parameter file that would replace something else."""
+    from ...calibration import CalibrationError
+    from ...recording.atomic import check_file
+
+    if args.parameters is None:
+        return
+    if args.output is not None and args.parameters.resolve() == args.output.resolve():
+        raise CalibrationError(
+            f"-o and --parameters both name '{args.parameters}'; a calibration and parameters of "
+            "the filter are two files, so choose another name for one of them"
+        )
+    check_file(args.parameters, overwrite=args.overwrite)
+
+
+def _noise(found: dict[str, GyroFit]) -> dict[str, float]:
+    """Return the parameters that every sensor tells, those of the worst one."""
+    from ...core.config import Noise
+
+    told = [fit.noise(Noise().bias_time) for fit in found.values()]
+    common_names = [name for name in told[0] if all(name in other for other in told)]
+    return {name: max(other[name] for other in told) for name in common_names}
+
+
+def _write_parameters(path: Path, found: dict[str, GyroFit], noise: dict[str, float]) -> Path:
+    from ...calibration import CalibrationError
+    from ...calibration.parameter_text import parameter_text
+    from ...recording.atomic import write_text
+
+    seconds = min(fit.standstill.duration_s for fit in found.values())
+    if not noise:
+        raise CalibrationError(
+            f"{seconds:.1f} s of standstill tell no noise parameter, so '{path}' is not written; "
+            "record some minutes for the white noise, some hours for the rest"
+        )
+    remarks = [
+        f"Noise at rest, from the Allan deviation of {seconds:.0f} s ('dualfoot calibrate gyro').",
+        "A lower bound: walking adds scale factors and shocks, see docs/calibration.md.",
+    ]
+    rounded = {name: float(f"{value:.3g}") for name, value in noise.items()}
+    write_text(path, parameter_text(rounded, remarks))
+    return path
+
+
+def _draw(found: dict[str, GyroFit], output: Path) -> Path:
+    from ...calibration.plots import draw_allan
+
+    return draw_allan(found, common.figure_path(output, "allan", list(found)))
+
+
+def _words(name: str, fit: GyroFit) -> Iterator[str]:
+    still = fit.standstill
+    yield f"{name}: standstill of {still.duration_s:.1f} s, {still.rate_hz:.1f} Hz"
+    yield (
+        f"  gyro bias {common.numbers(fit.bias, 6)} rad/s, "
+        f"{common.numbers(fit.bias * DEG, 4)} deg/s"
+    )
+    yield (
+        f"  +- {common.numbers(fit.bias_std, 6)} rad/s in this standstill; the next switching-on "
+        "has another bias, which the filter measures anew from every stand"
+    )
+    for triad, axes in fit.slopes.items():
+        for label, unit, values in (
+            ("white noise N", "1/sqrt(Hz)", [s.white for s in axes]),
+            ("bias instability B", "", [s.floor for s in axes]),
+            ("random walk K", "1/sqrt(s)", [s.walk for s in axes]),
+        ):
+            told = ", ".join("-" if v is None else f"{v:.3g}" for v in values)
+            base = "rad/s" if triad == "gyro" else "m/s^2"
+            yield f"  {triad:<13} {label:<19} x, y, z: {told} {base} {unit}".rstrip()
+
+
+def _facts(fit: GyroFit) -> dict[str, Any]:
+    from dataclasses import asdict
+
+    return {
+        "bias": fit.bias,
+        "bias_std": fit.bias_std,
+        "duration_s": fit.standstill.duration_s,
+        "slopes": {triad: [asdict(s) for s in axes] for triad, axes in fit.slopes.items()},
+        "allan": {
+            triad: {"tau": curve.tau, "deviation": curve.deviation}
+            for triad, curve in fit.curves.items()
+        },
+        "unseen": list(fit.unseen()),
+    }

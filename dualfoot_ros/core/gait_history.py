@@ -1,0 +1,56 @@
+"""What the tracker remembers of the recent past, as the constraint methods may ask for it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .kernel import layout as at
+from .kernel.workspace import Workspace
+from .samples.series import FloatArray
+
+
+class Past:
+    """A view of the rings: samples, snapshots, flags and stamps of the last second or so."""
+
+    def __init__(self, space: Workspace) -> None:
+        """Look at ``space``."""
+        self._space = space
+        self.period_s = 1.0 / space.rate_hz
+        self.ended = [-1, -1]
+
+    @property
+    def now(self) -> int:
+        """Newest epoch."""
+        return self._space.epoch
+
+    def sample(self, foot: int, epoch: int) -> FloatArray:
+        """Return specific force and bias-free angular rate (6,) of ``foot`` at ``epoch``."""
+        w, ring = self._space.w, self._space.ring
+        start = at.RINGS + at.SAMPLE * (epoch % ring) + 1 + 6 * foot
+        bias = foot * at.FOOT + at.BG
+        values = w[start : start + 6].copy()
+        values[3:] -= w[bias : bias + 3]
+        return values
+
+    def last_stance_end(self, foot: int) -> int:
+        """Return the last epoch of the last stance of ``foot`` that has ended, -1 for none."""
+        return self.ended[foot]
+
+    def in_stance(self, foot: int, epoch: int) -> bool:
+        """Return whether ``foot`` had zero velocity at ``epoch``."""
+        return bool((int(self._space.n[at.N_FLAGS + epoch % self._space.ring]) >> foot) & 1)
+
+    def remembers(self, epoch: int) -> bool:
+        """Return whether the filter can be rolled back to just after ``epoch``."""
+        return self._space.oldest <= epoch + 1 <= self._space.epoch
+
+    def positions_after(self, epoch: int) -> FloatArray:
+        """Return both feet's positions (2, 3) m as estimated at ``epoch``."""
+        state = self._space.snapshot(epoch + 1)
+        return np.array([state[f * at.FOOT + at.POS : f * at.FOOT + at.POS + 3] for f in (0, 1)])
+
+    def stamp(self, epoch: int, default: int = 0) -> int:
+        """Return the stamp in ns of ``epoch``, or ``default`` when it is forgotten."""
+        if not self._space.epoch - self._space.ring < epoch <= self._space.epoch:
+            return default
+        return int(self._space.stamps[epoch % self._space.ring])

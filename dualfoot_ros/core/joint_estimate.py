@@ -1,0 +1,147 @@
+"""The joint estimate of both feet as a constraint method sees it: read, and update."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from .kernel import Engine
+from .kernel import layout as at
+from .samples.series import FloatArray
+
+if TYPE_CHECKING:
+    from .kernel.workspace import Workspace
+
+Row = Mapping[int, float]
+
+ROUNDING = 1e-13  # relative size below which a variance is a rounding error
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a constraint: as in :class:`dualfoot_ros.core.Event`."""
+
+    innovation: FloatArray
+    S: FloatArray
+    nis: float
+    accepted: bool = True
+    detail: Mapping[str, Any] = field(default_factory=dict)
+
+
+class JointEstimate:
+    """Both feet's states with their joint covariance.
+
+    Error states are numbered as in eq. (9) of Liu et al. 2023: 0..14 the left foot's, 15..29 the
+    right foot's; within a foot position, velocity, attitude, gyro bias, accelerometer bias.
+    """
+
+    def __init__(self, workspace: Workspace, engine: Engine) -> None:
+        """Look at the present state of ``workspace``."""
+        self._space, self._engine = workspace, engine
+
+    def position(self, foot: int) -> FloatArray:
+        """Return the position (3,) m of foot 0 (left) or 1 (right)."""
+        start = foot * at.FOOT + at.POS
+        return self._space.w[start : start + 3].copy()
+
+    def velocity(self, foot: int) -> FloatArray:
+        """Return the velocity (3,) m/s of foot 0 or 1."""
+        start = foot * at.FOOT + at.VEL
+        return self._space.w[start : start + 3].copy()
+
+    def place(self, foot: int, position: FloatArray) -> None:
+        """Put foot 0 or 1 at ``position`` (3,) m; nothing else changes."""
+        start = foot * at.FOOT + at.POS
+        self._space.w[start : start + 3] = position
+
+    def covariance(self) -> FloatArray:
+        """Return the covariance (30, 30) of the error states."""
+        return self._space.covariance()
+
+    def rotation(self, foot: int) -> FloatArray:
+        """Return R_nb (3, 3) of foot 0 or 1."""
+        start = foot * at.FOOT + at.ROT
+        return self._space.w[start : start + 9].reshape(3, 3).copy()
+
+    def relative_position(self) -> list[float]:
+        """Return left minus right position, m."""
+        w = self._space.w
+        return [float(w[at.POS + i]) - float(w[at.FOOT + at.POS + i]) for i in range(3)]
+
+    def relative_covariance(self) -> list[list[float]]:
+        """Return the covariance (3, 3) m^2 of left minus right position."""
+        w = self._space.w
+        return [
+            [
+                float(w[at.PLL + at.ROW * i + j])
+                + float(w[at.PRR + at.ROW * i + j])
+                - float(w[at.PLR + at.ROW * i + j])
+                - float(w[at.PLR + at.ROW * j + i])
+                for j in range(3)
+            ]
+            for i in range(3)
+        ]
+
+    def variance(self, rows: Sequence[Row]) -> FloatArray:
+        """Return H P H' (m, m) of up to three rows, each {error state: coefficient}."""
+        self._collect(rows)
+        m = len(rows)
+        return self._space.w[at.S_S : at.S_S + 9].reshape(3, 3)[:m, :m].copy()
+
+    def update(
+        self, rows: Sequence[Row], innovation: Sequence[float], variances: Sequence[float]
+    ) -> tuple[FloatArray, float]:
+        """Update with up to three scalar measurements; return (S, NIS).
+
+        ``innovation`` is predicted minus measured (estimate minus truth, as the errors are) and
+        ``variances`` the noise of each; zero makes an exact constraint.  A variance H P H' that is
+        mere rounding counts as none: what an exact constraint has settled stays settled.
+        """
+        w = self._space.w
+        self._collect(rows)
+        m = len(rows)
+        for i in range(m):
+            if w[at.S_S + 4 * i] < ROUNDING * self._magnitude(rows[i]):
+                w[at.S_S + 4 * i] = 0.0
+            w[at.S_S + 4 * i] += variances[i]
+            w[at.S_Y + i] = innovation[i]
+        s = w[at.S_S : at.S_S + 9].reshape(3, 3)[:m, :m].copy()
+        return s, float(self._engine.correct(w, m))
+
+    def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
+        """Update with one measurement whose statistics are known; return the NIS.
+
+        ``cross`` (30,) is the covariance of the error state with the predicted measurement error,
+        ``s`` the innovation variance; ``innovation`` is predicted minus measured.
+        """
+        w = self._space.w
+        w[at.S_G : at.S_G + 32] = 0.0
+        w[at.S_G : at.S_G + 15] = cross[:15]
+        w[at.S_G + 16 : at.S_G + 31] = cross[15:]
+        w[at.S_S], w[at.S_Y] = s, innovation
+        return float(self._engine.correct(w, 1))
+
+    def _magnitude(self, row: Row) -> float:
+        """Return the greatest variance that the states of ``row`` could give together."""
+        w, total = self._space.w, 0.0
+        for state, coefficient in row.items():
+            start = at.PLL if state < 15 else at.PRR
+            total += abs(coefficient) * math.sqrt(max(0.0, w[start + (at.ROW + 1) * (state % 15)]))
+        return total * total
+
+    def _collect(self, rows: Sequence[Row]) -> None:
+        w = self._space.w
+        w[at.S_H : at.S_H + 96] = 0.0
+        for k, row in enumerate(rows):
+            for state, coefficient in row.items():
+                w[at.S_H + 32 * k + state + (state >= 15)] = coefficient
+        self._engine.collect(w, len(rows))
+
+
+def relative_row(direction: Sequence[float]) -> dict[int, float]:
+    """Return the row that measures left minus right position along ``direction`` (3,)."""
+    row = {i: float(direction[i]) for i in range(3)}
+    row.update({15 + i: -float(direction[i]) for i in range(3)})
+    return row

@@ -1,0 +1,1 @@
+"""What flows out: estimates of one epoch, trajectories and events."""

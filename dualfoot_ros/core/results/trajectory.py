@@ -1,0 +1,125 @@
+"""What flows out: events, the estimate of one epoch, and whole trajectories."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from ..samples.series import FloatArray, IntArray
+
+FEET = ("left", "right")
+
+
+class EventKind(StrEnum):
+    """What can happen at an epoch."""
+
+    ALIGNED = "aligned"
+    STANCE_START = "stance_start"
+    STANCE_END = "stance_end"
+    ZUPT = "zupt"
+    CONSTRAINT = "constraint"
+    AID = "aid"
+    HEADING = "heading"
+    RESET = "reset"
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that was applied to, or found in, the estimate.
+
+    Attributes
+    ----------
+    kind : what happened
+    stamp_ns : when it holds (for a constraint at the minimum-distance moment: that moment)
+    foot : "left", "right" or "both"
+    detected_ns : the epoch at which it became known and was applied; never before ``stamp_ns``
+    innovation : (m,) predicted minus measured (estimate minus truth, as the filter's errors), in
+        the units of the measurement
+    S : (m, m) innovation covariance
+    nis : normalised innovation squared, innovation' S^-1 innovation
+    accepted : False when a gate or a rule refused to apply it
+    detail : further named values (distance before and after, correction size, reason ...)
+    """
+
+    kind: EventKind
+    stamp_ns: int
+    foot: str
+    detected_ns: int
+    innovation: FloatArray = field(default_factory=lambda: np.empty(0))
+    S: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
+    nis: float = float("nan")
+    accepted: bool = True
+    detail: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class FootTrajectory:
+    """Estimates of one foot, one row an epoch, in the navigation frame (z up).
+
+    Attributes
+    ----------
+    stamp_ns : (N,) int64
+    position : (N, 3) m
+    velocity : (N, 3) m/s, navigation frame
+    quaternion : (N, 4) body to navigation, Hamilton, x y z w
+    stance : (N,) bool
+    position_covariance, velocity_covariance, attitude_covariance : (N, 3, 3), navigation frame
+    """
+
+    stamp_ns: IntArray
+    position: FloatArray
+    velocity: FloatArray
+    quaternion: FloatArray
+    stance: np.ndarray
+    position_covariance: FloatArray
+    velocity_covariance: FloatArray
+    attitude_covariance: FloatArray
+
+    def __len__(self) -> int:
+        """Return the number of epochs."""
+        return len(self.stamp_ns)
+
+    @property
+    def distance_m(self) -> float:
+        """Walked distance: the horizontal way from stance to stance."""
+        anchors = self.position[stance_middles(self.stance)][:, :2]
+        return float(np.linalg.norm(np.diff(anchors, axis=0), axis=1).sum())
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """Both feet over a recording, what was applied when, and what was refused.
+
+    ``relative_covariance`` (N, 3, 3) is the covariance of left minus right position.
+    ``start_ns`` is the epoch at which the alignment was done and the output starts.
+    ``zupt_nis`` (N, 2) is the NIS of each foot's zero-velocity update, nan where there was none.
+    """
+
+    left: FootTrajectory
+    right: FootTrajectory
+    relative_covariance: FloatArray
+    events: tuple[Event, ...]
+    counters: Mapping[str, int]
+    start_ns: int
+    method: str
+    zupt_nis: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
+
+    def of_kind(self, kind: EventKind, foot: str | None = None) -> list[Event]:
+        """Return the events of one kind, of one foot if given."""
+        return [e for e in self.events if e.kind is kind and foot in (None, e.foot)]
+
+
+def stance_bounds(stance: np.ndarray) -> np.ndarray:
+    """Return (M, 2) first and one-past-last index of every run of True in ``stance`` (N,)."""
+    padded = np.concatenate(([False], np.asarray(stance, dtype=bool), [False]))
+    return np.flatnonzero(padded[1:] != padded[:-1]).reshape(-1, 2)
+
+
+def stance_middles(stance: np.ndarray) -> np.ndarray:
+    """Return the (M,) middle index of every stance."""
+    bounds = stance_bounds(stance)
+    return (bounds[:, 0] + bounds[:, 1] - 1) // 2

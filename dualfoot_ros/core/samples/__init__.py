@@ -1,0 +1,1 @@
+"""What flows in: series and pairs of samples, axes, units, and which pairs are taken."""

@@ -1,0 +1,1 @@
+"""Wire formats: bytes to samples, without I/O."""

@@ -1,0 +1,125 @@
+"""Xsens DOT, recorded: the lines of the app's csv export, as they are read.
+
+The importer in ``recording`` reads a whole export at once and refuses a damaged one; this one
+takes lines as they come (a file that still grows, a pipe) and only refuses damaged lines.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+
+from ...core.parameters import Parameters, parameter
+from ...core.units import DEGREE
+from ..sample import Sample, Vector, scaled
+from .decoder import PacketCounter, deliver
+from .framing import DelimitedFramer
+
+FIRST = "PacketCounter"
+STAMP = "SampleTimeFine"
+FORCE, RATE, FIELD = (tuple(f"{name}_{axis}" for axis in "XYZ") for name in ("Acc", "Gyr", "Mag"))
+MAX_LINE = 1024
+
+
+@dataclass(frozen=True)
+class DotCsvOptions(Parameters):
+    """Options of the decoder of DOT csv lines."""
+
+    field_unit: float = parameter(
+        0.0,
+        "T for 1 in the export's arbitrary unit; 0 leaves the magnetic field out",
+        unit="T",
+        minimum=0.0,
+        maximum=1e-3,
+    )
+
+
+class DotCsvDecoder:
+    """Decode the lines behind the one that names the columns."""
+
+    message_oriented = False
+    max_buffer = MAX_LINE
+
+    def __init__(self, options: DotCsvOptions | None = None) -> None:
+        """Wait for the names of the columns."""
+        self.counters: Counter[str] = Counter()
+        self._framer = DelimitedFramer(ord("\n"), MAX_LINE, self.counters)
+        self._packets = PacketCounter(self.counters, 32)
+        self._field_unit = (options or DotCsvOptions()).field_unit
+        self._columns: dict[str, int] | None = None
+        self._delimiter = ","
+
+    @property
+    def buffered(self) -> int:
+        """Number of bytes kept for the next call."""
+        return self._framer.buffered
+
+    def reset(self) -> None:
+        """Forget a half-read line and the columns; a file that is opened anew names them."""
+        self._framer.reset()
+        self._packets.reset()
+        self._columns = None
+
+    def feed(self, data: bytes, arrival_ns: int) -> list[Sample]:
+        """Return the samples of the lines that ``data`` completes."""
+        self.counters["bytes"] += len(data)
+        samples: list[Sample] = []
+        for raw in self._framer.push(data):
+            line = raw.decode("ascii", "replace").strip("\ufffd \r")
+            if line.startswith(FIRST):
+                self._begin(line)
+            elif self._columns is None or not line.strip(",; "):
+                self.counters["other"] += 1
+            else:
+                self._take(line.split(self._delimiter), arrival_ns, samples)
+        return samples
+
+    def _begin(self, line: str) -> None:
+        """Learn the columns, unless the export lacks what is needed."""
+        self._delimiter = ";" if ";" in line else ","
+        names = [name.strip() for name in line.split(self._delimiter)]
+        columns = {name: place for place, name in enumerate(names)}
+        complete = all(name in columns for name in (STAMP, *FORCE, *RATE))
+        self._columns = columns if complete else None
+        self.counters["incomplete"] += not complete
+
+    def _take(self, cells: list[str], arrival_ns: int, samples: list[Sample]) -> None:
+        assert self._columns is not None
+        try:
+            counter, ticks = (self._whole(cells, name) for name in (FIRST, STAMP))
+            force, rate = (self._vector(cells, names) for names in (FORCE, RATE))
+            field = self._vector(cells, FIELD) if self._sends_field() else None
+        except (ValueError, IndexError):
+            self.counters["malformed"] += 1
+            return
+        self._packets.see(counter)
+        field = None if field is None else scaled(field, self._field_unit)
+        sample = Sample(
+            arrival_ns,
+            force,
+            scaled(rate, DEGREE),
+            ticks,
+            1000,
+            32,
+            magnetic_field=field,
+            counter=counter,
+        )
+        deliver(self.counters, samples, sample)
+
+    def _sends_field(self) -> bool:
+        return bool(self._field_unit) and FIELD[0] in (self._columns or {})
+
+    def _whole(self, cells: list[str], name: str) -> int:
+        assert self._columns is not None
+        cell = cells[self._columns[name]].strip()
+        if not cell.isascii() or not cell.isdigit() or len(cell) > 10 or int(cell) >> 32:
+            raise ValueError(cell)
+        return int(cell)
+
+    def _vector(self, cells: list[str], names: tuple[str, ...]) -> Vector:
+        assert self._columns is not None
+        texts = [cells[self._columns[name]] for name in names]
+        if any("_" in text for text in texts):  # Python's float reads 1_0 as ten
+            raise ValueError(texts)
+        x, y, z = map(float, texts)
+        return (x, y, z)

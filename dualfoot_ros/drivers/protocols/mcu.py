@@ -1,0 +1,123 @@
+"""The frame for boards of one's own; ``docs/mcu_frame.md`` describes it, with an encoder in C.
+
+COBS, terminated by a zero.  Inside, little-endian: kind u8, counter u16, device time u32 in
+microseconds, six values, what the flags announce, CRC-16/CCITT-FALSE over all before it.
+"""
+
+from __future__ import annotations
+
+import struct
+from binascii import crc_hqx
+from collections import Counter
+from dataclasses import dataclass
+
+from ...core.parameters import Parameters
+from ..sample import Sample, Vector, scaled
+from . import cobs
+from .decoder import PacketCounter, deliver
+from .framing import DelimitedFramer
+
+HEADER = struct.Struct("<BHI")
+FLOATS = struct.Struct("<6f")
+SCALED = struct.Struct("<2f6h")
+TEMPERATURE = struct.Struct("<h")
+FIELD = struct.Struct("<3h")
+CRC = struct.Struct("<H")
+
+LAYOUTS = {1: FLOATS, 2: SCALED}
+LAYOUT_BITS = 0x0F
+WITH_TEMPERATURE = 0x10
+WITH_FIELD = 0x20
+KNOWN_BITS = LAYOUT_BITS | WITH_TEMPERATURE | WITH_FIELD
+
+CENTIDEGREE = 0.01  # degrees Celsius
+TENTH_MICROTESLA = 1e-7  # T
+MAX_FRAME = 64  # the longest is 42 bytes with its COBS code
+
+
+@dataclass(frozen=True)
+class McuOptions(Parameters):
+    """The frame describes itself, so there is nothing to set."""
+
+
+class McuDecoder:
+    """Decode our own frames."""
+
+    message_oriented = False
+    max_buffer = MAX_FRAME
+
+    def __init__(self, options: McuOptions | None = None) -> None:
+        """Start with an empty buffer."""
+        self.counters: Counter[str] = Counter()
+        self._framer = DelimitedFramer(0, MAX_FRAME, self.counters)
+        self._packets = PacketCounter(self.counters, 16)
+
+    @property
+    def buffered(self) -> int:
+        """Number of bytes kept for the next call."""
+        return self._framer.buffered
+
+    def reset(self) -> None:
+        """Forget a half-received frame."""
+        self._framer.reset()
+        self._packets.reset()
+
+    def feed(self, data: bytes, arrival_ns: int) -> list[Sample]:
+        """Return the samples that ``data`` completes."""
+        self.counters["bytes"] += len(data)
+        samples: list[Sample] = []
+        for frame in self._framer.push(data):
+            content = self._checked(frame)
+            if content is not None:
+                self._decode(content, arrival_ns, samples)
+        return samples
+
+    def _checked(self, frame: bytes) -> bytes | None:
+        """Return the content of a frame whose checksum is right."""
+        plain = cobs.decode(frame)
+        if plain is None or len(plain) <= HEADER.size + CRC.size:
+            self.counters["malformed"] += 1
+            return None
+        content = plain[: -CRC.size]
+        if crc_hqx(content, 0xFFFF) != CRC.unpack(plain[-CRC.size :])[0]:
+            self.counters["bad_checksum"] += 1
+            return None
+        return content
+
+    def _decode(self, content: bytes, arrival_ns: int, samples: list[Sample]) -> None:
+        kind, counter, device_us = HEADER.unpack_from(content)
+        layout = LAYOUTS.get(kind & LAYOUT_BITS)
+        if layout is None or kind & ~KNOWN_BITS:
+            self.counters["other"] += 1
+            return
+        if len(content) != HEADER.size + layout.size + _extra_size(kind):
+            self.counters["malformed"] += 1
+            return
+        force, rate = _motion(layout, layout.unpack_from(content, HEADER.size))
+        temperature, field = _extras(kind, content, HEADER.size + layout.size)
+        self._packets.see(counter)
+        sample = Sample(arrival_ns, force, rate, device_us, 1000, 32, temperature, field, counter)
+        deliver(self.counters, samples, sample)
+
+
+def _motion(layout: struct.Struct, values: tuple[float, ...]) -> tuple[Vector, Vector]:
+    """Return specific force and angular rate; whole numbers carry their scales before them."""
+    if layout is FLOATS:
+        return values[0:3], values[3:6]  # type: ignore[return-value]
+    return scaled(values[2:5], values[0]), scaled(values[5:8], values[1])
+
+
+def _extra_size(kind: int) -> int:
+    size = TEMPERATURE.size if kind & WITH_TEMPERATURE else 0
+    return size + (FIELD.size if kind & WITH_FIELD else 0)
+
+
+def _extras(kind: int, content: bytes, at: int) -> tuple[float | None, Vector | None]:
+    """Return temperature and magnetic field where the flags announce them."""
+    temperature = field = None
+    if kind & WITH_TEMPERATURE:
+        temperature = TEMPERATURE.unpack_from(content, at)[0] * CENTIDEGREE
+        at += TEMPERATURE.size
+    if kind & WITH_FIELD:
+        field = scaled(FIELD.unpack_from(content, at), TENTH_MICROTESLA)
+    return temperature, field

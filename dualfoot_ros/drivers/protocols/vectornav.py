@@ -1,0 +1,198 @@
+"""VectorNav VN-100/200/300 binary output.
+
+After the VN-100 User Manual (UM001), chapter "Serial output message format": sync ``0xFA``, one
+bit for each group of fields, u16 masks of the fields in every group, the fields back to back,
+CRC-16 (polynomial 0x1021, start 0) sent high byte first.  All else is little-endian.
+"""
+
+from __future__ import annotations
+
+import struct
+from binascii import crc_hqx
+from collections import Counter
+from dataclasses import dataclass
+from functools import lru_cache
+
+from ...core.parameters import Parameters, parameter
+from ..sample import Sample, Vector, scaled
+from .decoder import deliver
+from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
+
+SYNC = 0xFA
+MAX_FRAME = 600
+GAUSS = 1e-4  # T
+VECTOR = struct.Struct("<3f")
+NUMBER = struct.Struct("<f")
+STARTUP = struct.Struct("<Q")
+
+SIZES = (
+    (8, 8, 8, 12, 16, 12, 24, 12, 12, 24, 20, 28, 2, 4, 8),
+    (8, 8, 8, 2, 8, 8, 8, 4, 4, 1, 1),
+    (2, 12, 12, 12, 4, 4, 16, 12, 12, 12, 12, 2, 40),
+    (8, 8, 2, 1, 1, 24, 24, 12, 12, 12, 4, 4, 2, 28),
+    (2, 12, 16, 36, 12, 12, 12, 12, 12, 12, 28, 24, 12),
+    (2, 24, 24, 12, 12, 12, 12, 12, 12, 4, 4, 68, 64),
+    (8, 8, 2, 1, 1, 24, 24, 12, 12, 12, 4, 4, 2, 28),
+)
+"""Bytes of each field of the groups common, time, IMU, GNSS, attitude, INS and second GNSS.
+
+Fields beyond have no fixed size; a message that holds one cannot be measured and is skipped.
+"""
+
+Field = tuple[int, int]  # group and bit, from zero
+TIME: tuple[Field, ...] = ((0, 0), (1, 0))
+IMU: Field = (0, 9)  # uncompensated acceleration, then angular rate
+MAGNETIC_PRESSURE: Field = (0, 10)  # magnetic field, temperature, pressure
+UNCOMPENSATED: tuple[tuple[Field, ...], tuple[Field, ...]] = (((2, 2),), ((2, 3),))
+COMPENSATED: tuple[tuple[Field, ...], tuple[Field, ...]] = (((0, 8), (2, 9)), ((0, 5), (2, 10)))
+TEMPERATURE: Field = (2, 4)
+MAGNETIC: tuple[Field, ...] = ((2, 1), (2, 8))
+
+
+@dataclass(frozen=True)
+class VectorNavOptions(Parameters):
+    """Options of the VectorNav decoder."""
+
+    prefer: str = parameter(
+        "uncompensated",
+        "which is used when both are sent; the compensated values have the device's own, "
+        "wandering bias estimates taken off",
+        choices=("uncompensated", "compensated"),
+    )
+
+
+class VectorNavDecoder:
+    """Decode binary messages that hold acceleration and angular rate."""
+
+    message_oriented = False
+
+    def __init__(self, options: VectorNavOptions | None = None) -> None:
+        """Start with an empty buffer."""
+        self.counters: Counter[str] = Counter()
+        self._framer = HeaderFramer(SYNC, probe, MAX_FRAME, self.counters, never)
+        self.max_buffer = self._framer.max_buffer
+        self._uncompensated = (options or VectorNavOptions()).prefer == "uncompensated"
+        self._temperature: float | None = None
+
+    @property
+    def buffered(self) -> int:
+        """Number of bytes kept for the next call."""
+        return self._framer.buffered
+
+    def reset(self) -> None:
+        """Forget a half-received message."""
+        self._framer.reset()
+        self._temperature = None
+
+    def feed(self, data: bytes, arrival_ns: int) -> list[Sample]:
+        """Return the samples that ``data`` completes."""
+        self.counters["bytes"] += len(data)
+        samples: list[Sample] = []
+        for frame in filter(None, self._framer.push(data)):
+            self._decode(frame, arrival_ns, samples)
+        return samples
+
+    def _decode(self, frame: bytes, arrival_ns: int, samples: list[Sample]) -> None:
+        offsets = _offsets(frame)
+        motion = self._motion(frame, offsets)
+        if motion is None:
+            self.counters["incomplete" if any(f[0] in (0, 2) for f in offsets) else "other"] += 1
+            return
+        self._temperature = _temperature(frame, offsets, self._temperature)
+        time = next(
+            (STARTUP.unpack_from(frame, offsets[f])[0] for f in TIME if f in offsets), None
+        )
+        field = _magnetic(frame, offsets)
+        sample = Sample(arrival_ns, *motion, time, 1, 64, self._temperature, field)
+        deliver(self.counters, samples, sample)
+
+    def _motion(self, frame: bytes, offsets: dict[Field, int]) -> tuple[Vector, Vector] | None:
+        """Return specific force and angular rate of the preferred kind, else of the other."""
+        raw, own = _raw(frame, offsets), _vectors(frame, offsets, COMPENSATED)
+        return (raw or own) if self._uncompensated else (own or raw)
+
+
+def probe(buffer: bytearray, at: int) -> int:
+    """Look at a message that may start at ``at``, as :data:`framing.Probe` says."""
+    if at >= len(buffer):
+        return NEED_MORE
+    if buffer[at] != SYNC:
+        return NO_FRAME
+    if at + 1 >= len(buffer):
+        return NEED_MORE
+    header = 2 + 2 * buffer[at + 1].bit_count()
+    if at + header > len(buffer):
+        return NEED_MORE
+    fields = layout(bytes(buffer[at + 1 : at + header]))
+    if fields is None:
+        return NO_FRAME
+    length = header + sum(size for _, size in fields) + 2
+    if length > MAX_FRAME:
+        return NO_FRAME
+    if at + length > len(buffer):
+        return NEED_MORE
+    return length if crc_hqx(buffer[at + 1 : at + length], 0) == 0 else BAD_CHECKSUM
+
+
+def never(_frame: bytes, _in_step: bool) -> bool:
+    """Doubt no message: layout and 16 bits of checksum are never right by chance."""
+    return False
+
+
+@lru_cache(maxsize=64)
+def layout(header: bytes) -> tuple[tuple[Field, int], ...] | None:
+    """Return fields and sizes that a header (group byte and masks) announces, or None.
+
+    None stands for a header with no field, an extension or a field of unknown size.
+    """
+    groups = [group for group in range(8) if header[0] >> group & 1]
+    fields: list[tuple[Field, int]] = []
+    for place, group in enumerate(groups):
+        mask = int.from_bytes(header[1 + 2 * place : 3 + 2 * place], "little")
+        if group >= len(SIZES) or mask >> len(SIZES[group]):
+            return None
+        sizes = enumerate(SIZES[group])
+        fields += [((group, bit), size) for bit, size in sizes if mask >> bit & 1]
+    return tuple(fields) if fields else None
+
+
+def _offsets(frame: bytes) -> dict[Field, int]:
+    """Return where in the message each field starts."""
+    at = 2 + 2 * frame[1].bit_count()
+    offsets: dict[Field, int] = {}
+    for field, size in layout(frame[1:at]) or ():
+        offsets[field] = at
+        at += size
+    return offsets
+
+
+def _raw(frame: bytes, offsets: dict[Field, int]) -> tuple[Vector, Vector] | None:
+    if IMU in offsets:
+        at = offsets[IMU]
+        return VECTOR.unpack_from(frame, at), VECTOR.unpack_from(frame, at + VECTOR.size)
+    return _vectors(frame, offsets, UNCOMPENSATED)
+
+
+def _vectors(
+    frame: bytes,
+    offsets: dict[Field, int],
+    wanted: tuple[tuple[Field, ...], tuple[Field, ...]],
+) -> tuple[Vector, Vector] | None:
+    force, rate = (next((offsets[f] for f in fields if f in offsets), None) for fields in wanted)
+    if force is None or rate is None:
+        return None
+    return VECTOR.unpack_from(frame, force), VECTOR.unpack_from(frame, rate)
+
+
+def _temperature(frame: bytes, offsets: dict[Field, int], otherwise: float | None) -> float | None:
+    if TEMPERATURE in offsets:
+        return float(NUMBER.unpack_from(frame, offsets[TEMPERATURE])[0])
+    if MAGNETIC_PRESSURE in offsets:
+        at = offsets[MAGNETIC_PRESSURE] + VECTOR.size
+        return float(NUMBER.unpack_from(frame, at)[0])
+    return otherwise
+
+
+def _magnetic(frame: bytes, offsets: dict[Field, int]) -> Vector | None:
+    at = next((offsets[f] for f in (*MAGNETIC, MAGNETIC_PRESSURE) if f in offsets), None)
+    return None if at is None else scaled(VECTOR.unpack_from(frame, at), GAUSS)

@@ -1,0 +1,180 @@
+"""Xsens MTi: MTData2 messages of the Xbus protocol.
+
+After the maker's MT Low Level Communication Protocol.  A message is preamble ``0xFA``, bus
+identifier, message identifier, length, data, and a byte that makes the sum of all but the
+preamble zero.  The data of MTData2 is a row of items: identifier u16, length u8, values, all
+big-endian; the last bits of the identifier say how numbers are written.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ..sample import Sample, Vector, scaled
+from .decoder import FieldOptions, PacketCounter, deliver
+from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
+
+PREAMBLE = 0xFA
+BUS_IDS = (0xFF, 0x01)  # a device on its own; the first one on a bus
+MTDATA2 = 0x36
+EXTENDED = 0xFF
+MAX_FRAME = 1024
+
+PACKET_COUNTER, SAMPLE_TIME_FINE, TEMPERATURE = 0x1020, 0x1060, 0x0810
+ACCELERATION, ACCELERATION_HR = 0x4020, 0x4040
+RATE_OF_TURN, RATE_OF_TURN_HR = 0x8020, 0x8040
+MAGNETIC_FIELD = 0xC020
+MOTION = (ACCELERATION, ACCELERATION_HR, RATE_OF_TURN, RATE_OF_TURN_HR)
+KIND, PRECISION = 0xFFF0, 0x3
+SIZES = (4, 4, 6, 8)  # bytes of a float, of fixed-point 12.20 and 16.32, of a double
+TICK_NS = 100_000  # SampleTimeFine counts at 10 kHz
+
+Items = dict[int, tuple[int, bytes]]
+
+
+@dataclass(frozen=True)
+class XbusOptions(FieldOptions):
+    """Options of the Xbus decoder."""
+
+
+class XbusDecoder:
+    """Decode MTData2 messages that hold acceleration and rate of turn."""
+
+    message_oriented = False
+
+    def __init__(self, options: XbusOptions | None = None) -> None:
+        """Start with an empty buffer."""
+        self.counters: Counter[str] = Counter()
+        self._framer = HeaderFramer(PREAMBLE, probe, MAX_FRAME, self.counters, no_motion)
+        self.max_buffer = self._framer.max_buffer
+        self._packets = PacketCounter(self.counters, 16)
+        self._field_unit = (options or XbusOptions()).field_unit
+        self._temperature: float | None = None
+
+    @property
+    def buffered(self) -> int:
+        """Number of bytes kept for the next call."""
+        return self._framer.buffered
+
+    def reset(self) -> None:
+        """Forget a half-received message."""
+        self._framer.reset()
+        self._packets.reset()
+        self._temperature = None
+
+    def feed(self, data: bytes, arrival_ns: int) -> list[Sample]:
+        """Return the samples that ``data`` completes."""
+        self.counters["bytes"] += len(data)
+        samples: list[Sample] = []
+        for frame in filter(None, self._framer.push(data)):
+            if frame[2] == MTDATA2:
+                self._decode(_content(frame), arrival_ns, samples)
+            else:
+                self.counters["other"] += 1
+        return samples
+
+    def _decode(self, content: bytes, arrival_ns: int, samples: list[Sample]) -> None:
+        items = {key & KIND: (key & PRECISION, value) for key, value in items_of(content)}
+        counter = _whole(items, PACKET_COUNTER, 2)
+        if counter is not None:
+            self._packets.see(counter)
+        self._temperature = _first(_reals(items, TEMPERATURE, 1), self._temperature)
+        force = _reals(items, ACCELERATION, 3) or _reals(items, ACCELERATION_HR, 3)
+        rate = _reals(items, RATE_OF_TURN, 3) or _reals(items, RATE_OF_TURN_HR, 3)
+        if force is None or rate is None:
+            self.counters["incomplete"] += 1
+            return
+        sample = Sample(
+            arrival_ns,
+            scaled(force, 1.0),
+            scaled(rate, 1.0),
+            _whole(items, SAMPLE_TIME_FINE, 4),
+            TICK_NS,
+            32,
+            self._temperature,
+            self._field(items),
+            counter,
+        )
+        deliver(self.counters, samples, sample)
+
+    def _field(self, items: Items) -> Vector | None:
+        field = _reals(items, MAGNETIC_FIELD, 3) if self._field_unit else None
+        return None if field is None else scaled(field, self._field_unit)
+
+
+def probe(buffer: bytearray, at: int) -> int:
+    """Look at a message that may start at ``at``, as :data:`framing.Probe` says."""
+    head = buffer[at : at + 6]
+    if head[:1] not in (b"", b"\xfa") or (len(head) > 1 and head[1] not in BUS_IDS):
+        return NO_FRAME
+    if len(head) < 4 or (head[3] == EXTENDED and len(head) < 6):
+        return NEED_MORE
+    length = int.from_bytes(head[4:6], "big") + 7 if head[3] == EXTENDED else head[3] + 5
+    if length > MAX_FRAME:
+        return NO_FRAME
+    if at + length > len(buffer):
+        return NEED_MORE
+    frame = buffer[at : at + length]
+    if sum(frame[1:]) & 0xFF:
+        return BAD_CHECKSUM
+    if frame[2] == MTDATA2 and not _is_row_of_items(_content(frame)):
+        return NO_FRAME
+    return length
+
+
+def no_motion(frame: bytes, _in_step: bool) -> bool:
+    """Doubt all messages but those with acceleration or rate of turn: these are no chance."""
+    if frame[2] != MTDATA2:
+        return True
+    return not any(
+        key & KIND in MOTION and len(value) == 3 * SIZES[key & PRECISION]
+        for key, value in items_of(_content(frame))
+    )
+
+
+def items_of(content: bytes) -> Iterator[tuple[int, bytes]]:
+    """Yield identifier and value of each item of the data of an MTData2 message."""
+    at = 0
+    while at + 3 <= len(content):
+        size = content[at + 2]
+        yield int.from_bytes(content[at : at + 2], "big"), content[at + 3 : at + 3 + size]
+        at += 3 + size
+
+
+def _is_row_of_items(content: bytes) -> bool:
+    return sum(3 + len(value) for _, value in items_of(content)) == len(content)
+
+
+def _content(frame: bytes | bytearray) -> bytes:
+    return bytes(frame[6:-1] if frame[3] == EXTENDED else frame[4:-1])
+
+
+def _whole(items: Items, key: int, size: int) -> int | None:
+    _, value = items.get(key, (0, b""))
+    return int.from_bytes(value, "big") if len(value) == size else None
+
+
+def _reals(items: Items, key: int, count: int) -> tuple[float, ...] | None:
+    """Return the ``count`` numbers of an item, or None where it is absent or too short."""
+    if key not in items:
+        return None
+    precision, value = items[key]
+    size = SIZES[precision]
+    if len(value) != count * size:
+        return None
+    return tuple(_real(precision, value[k : k + size]) for k in range(0, len(value), size))
+
+
+def _real(precision: int, value: bytes) -> float:
+    if precision == 1:
+        return int.from_bytes(value, "big", signed=True) / (1 << 20)
+    if precision == 2:  # the fraction, 32 bits, is sent before the whole part, 16 bits
+        return int.from_bytes(value[4:] + value[:4], "big", signed=True) / (1 << 32)
+    return float(struct.unpack(">f" if precision == 0 else ">d", value)[0])
+
+
+def _first(values: tuple[float, ...] | None, otherwise: float | None) -> float | None:
+    return otherwise if values is None else values[0]

@@ -1,0 +1,70 @@
+"""Files: captured bytes of a device, or a csv export; also one that is still being written."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+from typing import BinaryIO
+
+from ...core.parameters import Parameters, parameter
+from ..errors import SourceError
+from .transport import CHUNK, POLL_S
+
+
+@dataclass(frozen=True)
+class FileOptions(Parameters):
+    """Options of a file."""
+
+    speed: float = parameter(
+        1.0,
+        "times as fast as recorded, by the device's own clock; 0 as fast as possible",
+        minimum=0.0,
+        maximum=1000.0,
+    )
+    follow: bool = parameter(False, "wait at the end for what is still being written")
+
+
+class FileTransport:
+    """Read a file from its start."""
+
+    reopens = False
+    silence_s = 0.0
+
+    def __init__(self, path: str, options: FileOptions | None = None) -> None:
+        """Name the file; nothing is opened yet.
+
+        Raises
+        ------
+        SourceError
+            When there is no such file.
+        """
+        self._path = Path(path).expanduser()
+        if not self._path.exists() or self._path.is_dir():
+            raise SourceError(f"the file '{path}' does not exist or is a folder")
+        self.description = str(path)
+        self.counters: Counter[str] = Counter()
+        self._follow = (options or FileOptions()).follow
+        self._file: BinaryIO | None = None
+
+    def open(self) -> None:
+        """Open the file; raise :class:`OSError` when it cannot be read."""
+        self._file = self._path.open("rb")
+
+    def read(self) -> bytes | None:
+        """Return the next bytes, or None at the end."""
+        assert self._file is not None
+        data = self._file.read(CHUNK)
+        if data:
+            return data
+        if not self._follow:
+            return None
+        time.sleep(POLL_S)
+        return b""
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._file is not None:
+            self._file.close()
+            self._file = None

@@ -1,0 +1,86 @@
+"""Serial ports, USB ones included, by pyserial."""
+
+from __future__ import annotations
+
+import contextlib
+from collections import Counter
+from dataclasses import dataclass
+from importlib import util
+from typing import Any
+
+from ...core.parameters import Parameters, parameter
+from ..errors import SourceError
+from .transport import POLL_S
+
+
+@dataclass(frozen=True)
+class SerialOptions(Parameters):
+    """Options of a serial port."""
+
+    baud: int = parameter(115200, "bits a second", unit="1/s", minimum=300, maximum=12_000_000)
+    silence: float = parameter(
+        0.0,
+        "open the port again after so long without a byte; 0 never, as opening resets many boards",
+        unit="s",
+        minimum=0.0,
+        maximum=3600.0,
+    )
+
+
+class SerialTransport:
+    """Read a serial port; nobody else can open it meanwhile."""
+
+    reopens = True
+
+    def __init__(self, path: str, options: SerialOptions | None = None) -> None:
+        """Name the port, as in ``/dev/ttyUSB0`` or ``COM3``; nothing is opened yet.
+
+        Raises
+        ------
+        SourceError
+            When pyserial is not installed.
+        """
+        if util.find_spec("serial") is None:
+            raise SourceError(
+                "a serial:// source needs the package pyserial: pip install pyserial"
+            )
+        options = options or SerialOptions()
+        self.description = path
+        self.counters: Counter[str] = Counter()
+        self.silence_s = options.silence
+        self._baud = options.baud
+        self._port: Any = None
+
+    def open(self) -> None:
+        """Open the port; raise :class:`OSError` when it is absent, busy or forbidden."""
+        import serial
+
+        with _as_os_error():
+            self._port = serial.Serial(
+                self.description, self._baud, timeout=POLL_S, exclusive=True
+            )
+        with contextlib.suppress(OSError, ValueError, NotImplementedError):
+            self._port.set_low_latency_mode(True)  # USB adapters hold bytes back for 16 ms
+
+    def read(self) -> bytes:
+        """Return what has come; raise :class:`OSError` when the device is gone."""
+        with _as_os_error():
+            return bytes(self._port.read(max(1, self._port.in_waiting)))
+
+    def close(self) -> None:
+        """Close the port."""
+        port, self._port = self._port, None
+        if port is not None:
+            with contextlib.suppress(Exception):  # a device that is gone cannot be closed well
+                port.close()
+
+
+@contextlib.contextmanager
+def _as_os_error() -> Any:
+    """Let what pyserial and the terminal layer raise besides OSError become one."""
+    try:
+        yield
+    except OSError:
+        raise
+    except Exception as error:
+        raise OSError(f"{type(error).__name__}: {error}") from error

@@ -1,0 +1,1 @@
+"""Many walks and many methods: comparison, Monte Carlo, worker processes."""

@@ -1,0 +1,148 @@
+"""What is compared: methods and presets by name, and sweeps of a parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...core.config import TrackerConfig, all_specs
+from ...core.constraints import METHODS
+from ...settings.presets import load_config, preset_names
+from ..errors import EvaluationError
+
+ONE_SHOE = "rigid_pair"
+SHORT = {"gamma": "stance.threshold"}
+MOST_VALUES = 200
+
+
+@dataclass(frozen=True)
+class Case:
+    """One configuration under a name; ``swept`` is (parameter, value) where one was swept."""
+
+    label: str
+    config: TrackerConfig
+    swept: tuple[str, float] | None = None
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A parameter, by a short name or its dotted one, and the values it takes."""
+
+    name: str
+    values: tuple[float, ...]
+
+    @classmethod
+    def parse(cls, text: str) -> Sweep:
+        """Read ``NAME=START:STOP:STEP`` (both ends included) or ``NAME=A,B,C``.
+
+        Raises
+        ------
+        EvaluationError
+            When it is neither.
+        """
+        name, _, values = text.partition("=")
+        try:
+            numbers = [float(v) for v in values.replace(":", ",").split(",")]
+        except ValueError:
+            numbers = []
+        if not (name and numbers) or not np.isfinite(numbers).all():
+            raise EvaluationError(_what(text))
+        if ":" in values:
+            numbers = _stepped(text, numbers)
+        return cls(name, tuple(numbers))
+
+    def parameter(self, method: str) -> str | None:
+        """Return the dotted name of what is swept for ``method``, None when it has no such."""
+        name = SHORT.get(self.name, self.name)
+        dotted = name if "." in name else f"{method}.{name}"
+        group = dotted.partition(".")[0]
+        if group in METHODS and group != method:
+            return None
+        return dotted if any(spec.name == dotted for spec in all_specs()) else None
+
+
+def _stepped(text: str, numbers: list[float]) -> list[float]:
+    if len(numbers) != 3 or numbers[2] <= 0.0 or numbers[1] < numbers[0]:
+        raise EvaluationError(_what(text))
+    start, stop, step = numbers
+    count = int((stop - start) / step + 1e-9) + 1
+    if count > MOST_VALUES:
+        raise EvaluationError(f"--sweep '{text}' has {count} values; allowed are {MOST_VALUES}")
+    return [round(start + k * step, 12) for k in range(count)]
+
+
+def _what(text: str) -> str:
+    return (
+        f"--sweep '{text}' is not understood; allowed is NAME=START:STOP:STEP or NAME=A,B,C, "
+        "such as kappa=0.4:0.7:0.05 or gamma=3000,6000,9000"
+    )
+
+
+def case_names(text: str) -> list[str]:
+    """Return the names in ``all`` or a list like ``zupt,idc,liu2023``.
+
+    ``all`` is every method for a sensor on each foot (``rigid_pair`` has both on one shoe).
+
+    Raises
+    ------
+    EvaluationError
+        Naming what is neither a method nor a preset.
+    """
+    names: list[str] = []
+    for name in (part.strip() for part in text.split(",")):
+        names += [m for m in METHODS if m != ONE_SHOE] if name == "all" else [name]
+    known = [*METHODS, *preset_names()]
+    for name in names:
+        if name not in known:
+            raise EvaluationError(
+                f"'{name}' is no method and no preset; allowed are all, {', '.join(known)}"
+            )
+    return list(dict.fromkeys(names))
+
+
+def make_cases(
+    names: Iterable[str],
+    base: str | None = None,
+    overrides: Mapping[str, Any] | None = None,
+    sweeps: Sequence[Sweep] = (),
+) -> list[Case]:
+    """Return the cases of methods (with the parameters of ``base``) and presets, sweeps after.
+
+    Raises
+    ------
+    EvaluationError
+        When no method that was named has the parameter of a sweep.
+    ConfigError
+        When a value is out of its range.
+    """
+    plain = {name: _config(name, base, overrides or {}) for name in names}
+    cases = [Case(name, config) for name, config in plain.items()]
+    for sweep in sweeps:
+        found = [case for name, config in plain.items() for case in _swept(name, config, sweep)]
+        if not found:
+            raise EvaluationError(
+                f"no method among {', '.join(plain)} has the parameter '{sweep.name}' to sweep"
+            )
+        cases += found
+    return cases
+
+
+def _config(name: str, base: str | None, overrides: Mapping[str, Any]) -> TrackerConfig:
+    if name in METHODS:
+        return load_config(base, {**overrides, "method": name})
+    return load_config(name, overrides)
+
+
+def _swept(name: str, config: TrackerConfig, sweep: Sweep) -> Iterator[Case]:
+    dotted = sweep.parameter(config.method)
+    if dotted is None:
+        return
+    values = config.to_mapping()
+    whole = isinstance(values[dotted], int)
+    for value in sweep.values:
+        changed = {**values, dotted: int(value) if whole and value == int(value) else value}
+        label = f"{name} {sweep.name}={value:g}"
+        yield Case(label, TrackerConfig.from_mapping(changed), (sweep.name, value))

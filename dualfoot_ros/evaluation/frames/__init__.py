@@ -1,0 +1,1 @@
+"""Bringing an estimate and a reference together in time and space."""

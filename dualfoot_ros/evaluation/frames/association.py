@@ -1,0 +1,92 @@
+"""Bring a reference to the stamps of an estimate, and follow the feet from stance to stance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...core.results.trajectory import FootTrajectory, stance_bounds, stance_middles
+from ...core.samples.series import FloatArray, IntArray, PoseSeries
+from ..errors import EvaluationError
+
+
+def seconds(stamp_ns: IntArray, origin_ns: int) -> FloatArray:
+    """Return (N,) seconds since ``origin_ns``."""
+    return (np.asarray(stamp_ns, dtype=np.int64) - origin_ns) * np.float64(1e-9)
+
+
+def truth_at(stamp_ns: IntArray, truth: PoseSeries) -> PoseSeries:
+    """Return the truth interpolated to (N,) stamps that lie within it.
+
+    Positions follow cubic Hermite splines where velocities are known and straight lines where
+    not; attitudes follow great circles (slerp).
+    """
+    from scipy.interpolate import CubicHermiteSpline
+    from scipy.spatial.transform import Rotation, Slerp
+
+    origin = int(truth.stamp_ns[0])
+    known, wanted = seconds(truth.stamp_ns, origin), seconds(stamp_ns, origin)
+    attitude = Slerp(known, Rotation.from_quat(truth.quaternion))(wanted).as_quat()
+    if truth.velocity is None:
+        position = np.column_stack([np.interp(wanted, known, p) for p in truth.position.T])
+        return PoseSeries(stamp_ns, position, attitude)
+    spline = CubicHermiteSpline(known, truth.position, truth.velocity)
+    return PoseSeries(stamp_ns, spline(wanted), attitude, spline(wanted, 1))
+
+
+def within(stamp_ns: IntArray, truth: PoseSeries) -> np.ndarray:
+    """Return the (N,) mask of the stamps between the first and the last of the truth."""
+    inside = (stamp_ns >= truth.stamp_ns[0]) & (stamp_ns <= truth.stamp_ns[-1])
+    if inside.sum() < 2:
+        raise EvaluationError(
+            f"the truth covers {truth.stamp_ns[0]} to {truth.stamp_ns[-1]} ns and the estimate "
+            f"{stamp_ns[0]} to {stamp_ns[-1]} ns; they must overlap in time"
+        )
+    return inside
+
+
+def cut(track: FootTrajectory, keep: np.ndarray) -> FootTrajectory:
+    """Return the epochs of a track that the (N,) mask keeps."""
+    return replace(track, **{name: value[keep] for name, value in vars(track).items()})
+
+
+@dataclass(frozen=True)
+class Footfalls:
+    """Where one foot stood: stance by stance.
+
+    Attributes
+    ----------
+    bounds : (M, 2) first and one-past-last epoch of every stance
+    middle : (M,) middle epoch of every stance
+    """
+
+    bounds: IntArray
+    middle: IntArray
+
+    @classmethod
+    def of(cls, track: FootTrajectory) -> Footfalls:
+        """Find the stances of a track."""
+        return cls(stance_bounds(track.stance), stance_middles(track.stance))
+
+    def __len__(self) -> int:
+        """Return the number of stances."""
+        return len(self.middle)
+
+    def mean(self, position: FloatArray) -> FloatArray:
+        """Return (M, 3) mean positions over each stance of (N, 3) positions."""
+        means = [position[first:last].mean(axis=0) for first, last in self.bounds]
+        return np.reshape(means, (-1, 3))
+
+    def walked(self, position: FloatArray, stamp_ns: IntArray) -> FloatArray:
+        """Return the (N,) horizontal way from stance to stance, in m, at every epoch.
+
+        The way grows evenly in time within a stride, and is zero up to the first stance's middle.
+        """
+        if len(self) == 0:
+            return np.zeros(len(stamp_ns))
+        steps = np.linalg.norm(np.diff(position[self.middle, :2], axis=0), axis=1)
+        way = np.concatenate([[0.0], np.cumsum(steps)])
+        origin = int(stamp_ns[0])
+        time = seconds(stamp_ns, origin)
+        return np.interp(time, time[self.middle], way)

@@ -1,0 +1,121 @@
+"""Fix the frame of a trajectory of both feet to its truth or to floor markers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from ...core.results.trajectory import FEET, Trajectory
+from ...core.samples.series import FloatArray, PoseSeries
+from ..errors import EvaluationError
+from .association import Footfalls, cut, truth_at, within
+from .yaw_transform import FIRST_STRIDES_M, Align, Pair, YawTransform, fit
+
+Truth = tuple[PoseSeries, PoseSeries]
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to align: the method, one transform for both feet or for each, the length (m)."""
+
+    align: Align = Align.FIRST_STRIDES
+    pair: Pair = Pair.COMMON
+    length_m: float = FIRST_STRIDES_M
+
+    def words(self, to: str) -> str:
+        """Say how the frame is fixed to ``to``; markers always take one transform."""
+        each = self.pair is Pair.EACH and to == "truth"
+        feet = "one transform for each foot" if each else "one transform for both feet"
+        if self.align is Align.UMEYAMA4:
+            how = "yaw and translation of the best fit over the whole walk"
+        else:
+            how = f"start, and heading over the first {self.length_m:g} m"
+        return f"{self.align.value} ({how}), {feet}, to the {to}"
+
+
+Markers = Mapping[str, FloatArray]
+"""Where a foot ("left", "right" or both) stood, stance by stance: (K, 3) m, in order."""
+
+
+def overlap(trajectory: Trajectory, truth: Truth) -> tuple[Trajectory, Truth]:
+    """Return the epochs that lie within the truth of both feet, and the truth at their stamps."""
+    stamps = trajectory.left.stamp_ns
+    keep = within(stamps, truth[0]) & within(stamps, truth[1])
+    left, right = cut(trajectory.left, keep), cut(trajectory.right, keep)
+    relative = trajectory.relative_covariance[keep]
+    known = (truth_at(stamps[keep], truth[0]), truth_at(stamps[keep], truth[1]))
+    return replace(trajectory, left=left, right=right, relative_covariance=relative), known
+
+
+def find_transforms(
+    trajectory: Trajectory, truth: Truth | None, markers: Markers, options: Options
+) -> tuple[dict[str, YawTransform], str | None]:
+    """Return the transform of each foot and what it aligns to; none without a reference.
+
+    Raises
+    ------
+    EvaluationError
+        When the walk shows no heading for ``first_strides``.
+    """
+    if truth is not None:
+        return _to_truth(trajectory, truth, options), "truth"
+    one = to_markers(trajectory, markers, options)
+    return ({}, None) if one is None else ({"left": one, "right": one}, "markers")
+
+
+def _to_truth(trajectory: Trajectory, truth: Truth, options: Options) -> dict[str, YawTransform]:
+    estimates, references = [], []
+    for foot, true in zip((trajectory.left, trajectory.right), truth, strict=True):
+        falls = Footfalls.of(foot)
+        if options.align is Align.FIRST_STRIDES and len(falls) == 0:
+            raise EvaluationError(
+                "no stance was found in the time of the truth, so first_strides has no start; "
+                "align with umeyama4"
+            )
+        whole = options.align is Align.UMEYAMA4
+        estimates.append(foot.position if whole else falls.mean(foot.position))
+        references.append(true.position if whole else falls.mean(true.position))
+    if options.pair is Pair.COMMON:
+        one = fit(options.align, estimates, references, options.length_m)
+        return {"left": one, "right": one}
+    return {
+        foot: fit(options.align, [e], [r], options.length_m)
+        for foot, e, r in zip(FEET, estimates, references, strict=True)
+    }
+
+
+def to_markers(trajectory: Trajectory, markers: Markers, options: Options) -> YawTransform | None:
+    """Fit the feet that stood on markers; None when none did or too few stances were found.
+
+    With ``umeyama4`` a foot whose stances are not as many as its markers does not take part.
+    """
+    estimates, references = [], []
+    for foot, points in markers.items():
+        stood = stood_on(trajectory, foot)
+        known = min(len(stood), len(points))
+        whole = options.align is Align.UMEYAMA4
+        if known >= 2 and not (whole and len(stood) != len(points)):
+            estimates.append(stood[:known])
+            references.append(points[:known])
+    if not estimates:
+        return None
+    return fit(options.align, estimates, references, options.length_m)
+
+
+def stood_on(trajectory: Trajectory, foot: str) -> FloatArray:
+    """Return (M, 3) m, the mean position of every stance of a foot."""
+    track = trajectory.left if foot == "left" else trajectory.right
+    return Footfalls.of(track).mean(track.position)
+
+
+def apply_transforms(trajectory: Trajectory, transforms: dict[str, YawTransform]) -> Trajectory:
+    """Return the trajectory in the frame of the reference, covariances included."""
+    if not transforms:
+        return trajectory
+    left, right = transforms["left"], transforms["right"]
+    return replace(
+        trajectory,
+        left=left.foot(trajectory.left),
+        right=right.foot(trajectory.right),
+        relative_covariance=left.covariance(trajectory.relative_covariance),
+    )

@@ -1,0 +1,93 @@
+"""Normalised estimation error squared (NEES): whether the covariance can be believed.
+
+For a consistent filter ``e' P^-1 e`` has the mean of its number of dimensions (Bar-Shalom et al.
+2001, section 5.4), so the figures here, divided by that number, are 1 when the covariance is
+honest, above when it promises too much.  Heading and position are compared after the alignment,
+so they leave out what the alignment took away.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.results.trajectory import FootTrajectory
+from ...core.samples.series import FloatArray, IntArray, PoseSeries
+
+SMALLEST_STD = 1e-4
+"""Below this (m, m/s, rad) no covariance is believed; after a hard constraint it is zero."""
+
+
+def nees(error: FloatArray, covariance: FloatArray) -> FloatArray:
+    """Return (N,) NEES, divided by the dimension D, of (N, D) errors with (N, D, D) covariances.
+
+    Variances along the principal axes are raised to ``SMALLEST_STD`` squared, since a covariance
+    is singular by construction right after an equality constraint.
+    """
+    variance, axes = np.linalg.eigh(covariance)
+    along = np.einsum("nji,nj->ni", axes, error)
+    return np.mean(along**2 / np.maximum(variance, SMALLEST_STD**2), axis=1)
+
+
+@dataclass(frozen=True)
+class Consistency:
+    """Mean NEES over the stances' middles, divided by the dimension (1 is honest)."""
+
+    left_position: float
+    right_position: float
+    left_velocity: float | None
+    right_velocity: float | None
+    left_attitude: float
+    right_attitude: float
+    relative_position: float
+
+
+def consistency(
+    feet: tuple[FootTrajectory, FootTrajectory],
+    truth: tuple[PoseSeries, PoseSeries],
+    middles: tuple[IntArray, IntArray],
+    relative_covariance: FloatArray,
+) -> Consistency:
+    """Return the NEES of both aligned feet against the truth at the same stamps."""
+    rows = [_foot(foot, true, at) for foot, true, at in zip(feet, truth, middles, strict=True)]
+    (left_p, left_v, left_a), (right_p, right_v, right_a) = rows
+    apart = feet[0].position - feet[1].position - (truth[0].position - truth[1].position)
+    return Consistency(
+        left_position=left_p,
+        right_position=right_p,
+        left_velocity=left_v,
+        right_velocity=right_v,
+        left_attitude=left_a,
+        right_attitude=right_a,
+        relative_position=_mean(apart, relative_covariance, np.concatenate(middles)),
+    )
+
+
+def _foot(
+    foot: FootTrajectory, true: PoseSeries, at: IntArray
+) -> tuple[float, float | None, float]:
+    """Return the mean NEES of position, of velocity where it is known, and of attitude."""
+    velocity = None
+    if true.velocity is not None:
+        velocity = _mean(foot.velocity - true.velocity, foot.velocity_covariance, at)
+    turned = attitude_error(foot.quaternion, true.quaternion)
+    return (
+        _mean(foot.position - true.position, foot.position_covariance, at),
+        velocity,
+        _mean(turned, foot.attitude_covariance, at),
+    )
+
+
+def attitude_error(estimate: FloatArray, truth: FloatArray) -> FloatArray:
+    """Return (N, 3) rotation vectors, fixed navigation axes, from the truth to the estimate."""
+    from scipy.spatial.transform import Rotation
+
+    return (Rotation.from_quat(estimate) * Rotation.from_quat(truth).inv()).as_rotvec()
+
+
+def _mean(error: FloatArray, covariance: FloatArray, at: IntArray) -> float:
+    """Return the mean NEES at the epochs ``at``; nan without epochs or without a covariance."""
+    if len(at) == 0 or not np.isfinite(covariance[at]).all():
+        return float("nan")
+    return float(np.mean(nees(error[at], covariance[at])))

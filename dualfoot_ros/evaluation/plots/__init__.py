@@ -1,5 +1,0 @@
-"""Figures of evaluated walks; matplotlib is imported only when one is drawn."""
-
-from .all import draw_all
-
-__all__ = ["draw_all"]

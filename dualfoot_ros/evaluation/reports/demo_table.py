@@ -1,0 +1,84 @@
+"""The report of a demonstration: what several methods published on one recording."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ...core.results.trajectory import Trajectory
+from ...recording.recording import Recording
+from ..errors import EvaluationError
+from ..evaluate import Evaluation, evaluate
+from ..frames.gauge import Options
+from ..methods_table import methods_table
+from ..track import truth_of
+from .output import staged, write_metrics
+from .plots import draw_all
+from .tum import write_tracks
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+
+@dataclass(frozen=True)
+class Report:
+    """What came out: figures of each method, and the files that were written."""
+
+    title: str
+    runs: dict[str, Evaluation]
+    paths: tuple[Path, ...]
+
+    def table(self) -> Table:
+        """Return the one table: RMSE, end error, headings and crossings, a block a method."""
+        return methods_table(self.runs, self.title)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all figures as plain values."""
+        return {
+            "title": self.title,
+            "runs": {name: run.to_dict() for name, run in self.runs.items()},
+            "files": [str(path) for path in self.paths],
+        }
+
+
+def demo_report(
+    runs: Mapping[str, Trajectory],
+    recording: Recording,
+    out_dir: str | Path,
+    *,
+    title: str = "demo",
+    options: Options | None = None,
+) -> Report:
+    """Evaluate trajectories of the same recording against its truth; write figures and files.
+
+    Parameters
+    ----------
+    runs : name of the method -> what it estimated, live or offline
+    recording : with the truth of both feet
+    out_dir : folder of the report
+
+    Raises
+    ------
+    EvaluationError
+        When there is no run, or the recording has no truth.
+    """
+    truth = truth_of(recording)
+    if not runs:
+        raise EvaluationError("no trajectory to report on")
+    if truth is None:
+        raise EvaluationError("the recording has no truth of both feet to compare with")
+    found = {
+        name: evaluate(run, truth=truth, reference=recording.reference, options=options)
+        for name, run in runs.items()
+    }
+    target = Path(out_dir)
+    with staged(target) as folder:
+        figures = draw_all(found, folder, title)
+        tracks = [p for name, run in found.items() for p in write_tracks(folder, run, f"{name}_")]
+        written = (*figures, *tracks)
+        paths = tuple(target / path.name for path in written)
+        report = Report(title, found, (*paths, target / "metrics.json"))
+        write_metrics(folder, report.to_dict())
+    return report

@@ -1,0 +1,43 @@
+"""When each foot stood: two strips a line, so many seconds a line."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from ....core.results.trajectory import stance_bounds
+from ...evaluate import Evaluation
+from ...frames.association import seconds
+from .style import FOOT, new_figure, save
+
+ROW_S = 20.0
+MOST_ROWS = 12
+
+
+def draw_stances(run: Evaluation, path: Path, title: str) -> Path:
+    """Draw the stances of both feet from the start of the estimate."""
+    stamps = run.trajectory.left.stamp_ns
+    time = seconds(stamps, int(stamps[0]))
+    rows = max(1, math.ceil(time[-1] / ROW_S))
+    shown = min(rows, MOST_ROWS)
+    figure, axes = new_figure(11.0, 1.2 + 0.75 * shown, rows=shown)
+    for number, axis in enumerate(axes.flat):
+        for level, (foot, track) in enumerate(reversed(run.feet_tracks.items())):
+            bars = _bars(time, track.stance)
+            axis.broken_barh(bars, (level + 0.1, 0.8), color=FOOT[foot], linewidth=0)
+        axis.set_xlim(number * ROW_S, (number + 1) * ROW_S)
+        axis.set_xticks(np.arange(11) * ROW_S / 10 + number * ROW_S)
+        axis.set_ylim(0, 2)
+        axis.set_yticks([0.5, 1.5], ["right", "left"])
+        axis.grid(visible=False, axis="y")
+    axes[-1, 0].set_xlabel("time since start (s)")
+    part = "" if rows == shown else f", the first {shown * ROW_S:g} s of {time[-1]:.0f} s"
+    figure.suptitle(f"{title}: stance phases{part}", fontsize=11)
+    return save(figure, path)
+
+
+def _bars(time: np.ndarray, stance: np.ndarray) -> list[tuple[float, float]]:
+    last = len(time) - 1
+    return [(time[a], time[min(b, last)] - time[a]) for a, b in stance_bounds(stance)]

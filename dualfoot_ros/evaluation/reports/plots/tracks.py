@@ -1,0 +1,89 @@
+"""Both tracks from above, against truth or floor markers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...evaluate import Evaluation
+from ...frames.association import Footfalls
+from .style import FOOT, MARKER, TRUTH, new_figure, save
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+LABEL_IN = 1.5
+"""Width of a label of the legend in the mean, inches."""
+
+MOST_DOTS = 80
+"""Stances are dotted on walks of no more than this many."""
+
+
+def draw_tracks(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
+    """Draw one panel for each run, all to the same scale."""
+    width, height = _panel_size(runs)
+    figure, axes = new_figure(
+        max(4.5, width * len(runs)), height + 1.4, columns=len(runs), sharex=True, sharey=True
+    )
+    for axis, (name, run) in zip(axes.flat, runs.items(), strict=True):
+        _panel(axis, run)
+        axis.set_title(name, fontsize=10)
+        axis.set_xlabel("x (m)")
+    axes[0, 0].set_ylabel("y (m)")
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    columns = max(2, int(figure.get_figwidth() / LABEL_IN))
+    figure.legend(
+        handles, labels, loc="outside lower center", ncols=columns, fontsize=8, frameon=False
+    )
+    figure.suptitle(f"{title}: both feet from above", fontsize=11)
+    return save(figure, path)
+
+
+def _panel_size(runs: Mapping[str, Evaluation]) -> tuple[float, float]:
+    tracks = [f.position[:, :2] for run in runs.values() for f in run.feet_tracks.values()]
+    span = np.ptp(np.vstack(tracks), axis=0) + 1.0
+    height = float(np.clip(6.5 * span[1] / span[0], 2.5, 7.5))
+    return float(np.clip(height * span[0] / span[1] + 0.9, 3.2, 7.5)), height
+
+
+def _panel(axis: Axes, run: Evaluation) -> None:
+    for number, truth in enumerate(run.truth or ()):
+        label = "truth" if number == 0 else None
+        axis.plot(*truth.position[:, :2].T, color=TRUTH, linewidth=2.6, label=label)
+    for foot, points in run.markers.items() if run.aligned_to == "markers" else ():
+        axis.plot(
+            *points[:, :2].T,
+            "s",
+            markerfacecolor="none",
+            markeredgecolor=MARKER,
+            markersize=8,
+            label=f"floor markers ({foot} foot)",
+        )
+    for foot, track in run.feet_tracks.items():
+        colour = FOOT[foot]
+        axis.plot(*track.position[:, :2].T, color=colour, linewidth=0.9, label=f"{foot} foot")
+        stood = Footfalls.of(track).mean(track.position)
+        if len(stood) <= MOST_DOTS:
+            axis.plot(*stood[:, :2].T, ".", color=colour, markersize=4)
+    _ends(axis, run)
+    axis.set_aspect("equal", adjustable="box")
+
+
+def _ends(axis: Axes, run: Evaluation) -> None:
+    tracks = run.feet_tracks.values()
+    for index, symbol, label in ((0, "^", "start"), (-1, "X", "end")):
+        x, y = np.mean([t.position[index, :2] for t in tracks], axis=0)
+        axis.plot(
+            x,
+            y,
+            symbol,
+            markersize=9,
+            markerfacecolor="#F0E442",
+            markeredgecolor="black",
+            linestyle="none",
+            label=label,
+            zorder=5,
+        )

@@ -1,0 +1,118 @@
+"""The figures of one walk as a table for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ..evaluate import Evaluation
+from ..frames.association import Footfalls
+from ..metrics.accuracy import Statistics
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+Row = tuple[str, str, str, str]
+
+
+def walk_table(run: Evaluation, title: str) -> Table:
+    """Return a table with columns left, right and both, and only the rows that are known."""
+    from rich.table import Table
+
+    table = Table(title=title, caption=f"aligned by: {run.alignment_name}", title_justify="left")
+    for name, side in (
+        ("", "left"),
+        ("left", "right"),
+        ("right", "right"),
+        ("both feet", "right"),
+    ):
+        table.add_column(name, justify=side)  # type: ignore[arg-type]
+    for section in (_walk(run), _truth(run), _markers(run), _closure(run), _feet(run)):
+        for row in section:
+            table.add_row(*row)
+        table.add_section()
+    return table
+
+
+def number(value: float | None, digits: int = 2) -> str:
+    """Return a figure as text, a dash where there is none."""
+    return "-" if value is None or value != value else f"{value:.{digits}f}"
+
+
+def _walk(run: Evaluation) -> Iterator[Row]:
+    left, right = run.feet_tracks.values()
+    yield "stances", str(len(Footfalls.of(left))), str(len(Footfalls.of(right))), ""
+    yield "distance walked (m)", number(left.distance_m), number(right.distance_m), ""
+
+
+def _truth(run: Evaluation) -> Iterator[Row]:
+    report = run.truth_report
+    if report is None:
+        return
+    sides = (report.left, report.right, report.midpoint)
+    names = {
+        "RMSE (m)": "rmse_m",
+        "height RMSE (m)": "rmse_vertical_m",
+        "largest error (m)": "max_m",
+        "end error (m)": "end_m",
+        "end error (% of distance)": "end_percent",
+    }
+    for label, name in names.items():
+        left, right, middle = (number(getattr(s, name), 3) for s in sides)
+        yield label, left, right, f"mid-point {middle}"
+    for mark in report.midpoint.at_distance_m:
+        errors = [number(s.at_distance_m.get(mark), 3) for s in sides]
+        yield f"error at {mark} m (m)", errors[0], errors[1], f"mid-point {errors[2]}"
+    strides = (report.left_strides, report.right_strides)
+    yield "stride RMSE (m)", number(strides[0].rmse_m, 3), number(strides[1].rmse_m, 3), ""
+    ratios = [number(s.length_ratio, 4) for s in strides]
+    yield "stride length, estimate/truth", ratios[0], ratios[1], ""
+    heading = report.heading
+    ends = number(heading.left_end_deg), number(heading.right_end_deg)
+    yield "heading error at the end (deg)", *ends, f"{heading.common_end_deg:.2f} common"
+    yield "", "", "", f"{heading.difference_end_deg:.2f} difference"
+    nees = report.nees
+    positions = number(nees.left_position), number(nees.right_position)
+    yield "NEES of position / 3", *positions, f"{number(nees.relative_position)} relative"
+
+
+def _markers(run: Evaluation) -> Iterator[Row]:
+    reports = [run.marker_report.get(foot) for foot in run.feet_tracks]
+    if not any(reports):
+        return
+    counts = [f"{r.stances} for {r.markers}" if r else "" for r in reports]
+    yield "stances for markers", counts[0], counts[1], ""
+    for label, name in (
+        ("marker RMSE (m)", "rmse_m"),
+        ("largest marker error (m)", "max_m"),
+        ("error at the last marker (m)", "end_m"),
+    ):
+        values = [number(getattr(r, name), 3) if r else "" for r in reports]
+        yield label, values[0], values[1], ""
+
+
+def _closure(run: Evaluation) -> Iterator[Row]:
+    gap = run.closure
+    if gap is None:
+        return
+    label = "loop closure" if run.closed_loop else "start to end"
+    means = number(gap.mean_m, 3), number(gap.mean_percent)
+    yield f"{label} (m)", number(gap.left_m, 3), number(gap.right_m, 3), f"mean {means[0]}"
+    shares = number(gap.left_percent), number(gap.right_percent)
+    yield f"{label} (% of distance)", *shares, f"mean {means[1]}"
+
+
+def _feet(run: Evaluation) -> Iterator[Row]:
+    feet = run.feet
+    crossed = f"{number(feet.crossed_percent, 1)} ({feet.crossed} of {feet.passings})"
+    yield "feet crossed (% of passings)", "", "", crossed
+    moments = f"at {feet.distance_m.count} {feet.moments}s"
+    yield from _spread(f"feet apart {moments}", feet.distance_m)
+    if feet.distance_error_m is not None:
+        yield from _spread("error of that", feet.distance_error_m)
+
+
+def _spread(label: str, spread: Statistics) -> Iterator[Row]:
+    both = f"{number(spread.mean, 3)} +- {number(spread.std, 3)}"
+    yield f"{label}, mean +- std (m)", "", "", both
+    yield "    RMS, max (m)", "", "", f"{number(spread.rms, 3)}, {number(spread.max, 3)}"

@@ -1,0 +1,169 @@
+"""How far the left foot is to the left of the right one, from two tracks that nothing ties.
+
+A stand does not show it, nor does a straight line: where each track starts is a gauge.  A turn
+does, as in :mod:`dualfoot_ros.core.constraints.learnt_spacing`.  This is the offline form, for
+walks that are long or whose feet may have been exchanged: nothing says that the spacing is
+positive, and the ways in which two tracks drift apart are estimated with it.  At passing k, with n
+the unit vector to the left of the walk, f forward, and s the spacing, the separation (left minus
+right) is
+
+    u_k = s n_k + a_k + d g_k f_k + noise,    g = +1 when the right foot stands, else -1,
+    a_k+1 = a_k + delta J w_k + epsilon w_k + wander,
+
+where a is the error of the placement, w the way from one passing to the next, J a quarter turn to
+the left, delta the difference of the tracks' headings, epsilon that of their scales, and d by how
+much the moment taken for the passing is early or late.  A Kalman filter of (s, a, delta, epsilon,
+d) is all it takes.  A turn lets the navigation filter correct the heading it had so far and with
+it the place, so the wander grows in turns with the way walked; a jump beyond that is taken as a
+new placement.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .passings import Passing
+
+SPACING_STD_M = 0.3  # of either sign
+PLACEMENT_STD_M = 0.3
+HEADING_STD = 0.1  # rad; first strides are that unlike
+SCALE_STD = 0.03
+MOMENT_STD_M = 0.1
+WANDER_STD_M = 0.02  # from passing to passing
+HEADING_WANDER = 0.003  # rad from passing to passing
+HEADING_PER_TURN = 0.02  # rad per rad: scale factors of the gyros
+PLACE_PER_TURN = 0.003  # of the way so far, per rad
+SCALE_WANDER = 0.001
+ACROSS_STD_M = 0.04
+ALONG_STD_M = 0.08
+JUMP_NIS = 20.0
+LEAST_STEPS = 5  # steps; fewer have no scatter
+FARTHEST_HEADING = 0.5  # rad; tracks that differ by more tell nothing any more
+
+S, A, DELTA, EPSILON, D = 0, slice(1, 3), 3, 4, 5
+
+
+@dataclass(frozen=True)
+class SideBySide:
+    """The estimate and what it rests on.
+
+    Attributes
+    ----------
+    spacing_m, std_m : lateral distance of the feet in passing, left positive
+    passings : how many were used
+    turned_rad : span of the headings of the walk
+    jumps : how often the tracks were placed anew
+    scatter_m : how much the lateral distance varies from step to step
+    heading_difference_rad : of left minus right track, at the end
+    """
+
+    spacing_m: float
+    std_m: float
+    passings: int
+    turned_rad: float
+    jumps: int
+    scatter_m: float
+    heading_difference_rad: float
+
+    @property
+    def sigmas(self) -> float:
+        """The estimate in units of its standard deviation."""
+        return self.spacing_m / self.std_m
+
+
+def side_by_side(passings: Sequence[Passing]) -> SideBySide:
+    """Estimate the spacing from the passings of a walk; without turns it stays at 0 +- 0.3 m."""
+    filter_ = _Filter()
+    used = 0
+    for passing in passings:
+        filter_.add(passing)
+        used += 1
+        if abs(filter_.x[DELTA]) > FARTHEST_HEADING:
+            break
+    headings = np.unwrap([math.atan2(p.forward[1], p.forward[0]) for p in passings[:used]])
+    return SideBySide(
+        spacing_m=float(filter_.x[S]),
+        std_m=math.sqrt(float(filter_.p[S, S])),
+        passings=used,
+        turned_rad=float(np.ptp(headings)) if used else 0.0,
+        jumps=filter_.jumps,
+        scatter_m=_scatter(passings[:used]),
+        heading_difference_rad=float(filter_.x[DELTA]),
+    )
+
+
+class _Filter:
+    """Kalman filter of spacing, placement, heading and scale difference, moment."""
+
+    def __init__(self) -> None:
+        self.x = np.zeros(6)
+        place, moment = PLACEMENT_STD_M**2, MOMENT_STD_M**2
+        first = [SPACING_STD_M**2, place, place, HEADING_STD**2, SCALE_STD**2, moment]
+        self.p = np.diag(first)
+        self.jumps = 0
+        self._last: Passing | None = None
+        self._way_m = 0.0
+
+    def add(self, passing: Passing) -> None:
+        """Go on to ``passing`` and take it."""
+        if self._last is not None:
+            self._advance(passing, self._last)
+        self._last = passing
+        left, forward = passing.left, passing.forward
+        sign = 1.0 if passing.standing == 1 else -1.0
+        h = np.column_stack([left, np.eye(2), np.zeros((2, 2)), sign * forward])
+        noise = ACROSS_STD_M**2 * np.outer(left, left)
+        noise += ALONG_STD_M**2 * np.outer(forward, forward)
+        innovation = passing.separation - h @ self.x
+        s = h @ self.p @ h.T + noise
+        if innovation @ np.linalg.solve(s, innovation) > JUMP_NIS:
+            self._place_anew(float(innovation @ innovation))
+            s = h @ self.p @ h.T + noise
+        gain = self.p @ h.T @ np.linalg.inv(s)
+        self.x = self.x + gain @ innovation
+        self.p = self.p - gain @ s @ gain.T
+
+    def _advance(self, passing: Passing, last: Passing) -> None:
+        way = passing.middle - last.middle
+        self._way_m += float(np.linalg.norm(way))
+        (a, b), (c, d) = last.forward, passing.forward
+        turned = abs(math.atan2(a * d - b * c, a * c + b * d))
+        f = np.eye(6)
+        f[A, DELTA] = [-way[1], way[0]]
+        f[A, EPSILON] = way
+        self.x = f @ self.x
+        self.p = f @ self.p @ f.T
+        place = WANDER_STD_M**2 + (PLACE_PER_TURN * self._way_m * turned) ** 2
+        self.p[A, A] += place * np.eye(2)
+        self.p[DELTA, DELTA] += HEADING_WANDER**2 + (HEADING_PER_TURN * turned) ** 2
+        self.p[EPSILON, EPSILON] += SCALE_WANDER**2
+
+    def _place_anew(self, square_m2: float) -> None:
+        self.jumps += 1
+        self.p[A, :] = 0.0
+        self.p[:, A] = 0.0
+        self.p[A, A] = (4.0 * PLACEMENT_STD_M**2 + square_m2) * np.eye(2)
+
+
+def _scatter(passings: Sequence[Passing]) -> float:
+    """Return the step-to-step scatter (m) of the lateral distance where the walk was straight.
+
+    From second differences over one foot's steps, so that a steady drift does not count.
+    """
+    bends = [
+        float((c.separation - 2.0 * b.separation + a.separation) @ b.left)
+        for a, b, c in zip(passings[:-4], passings[2:-2], passings[4:], strict=True)
+        if a.standing == b.standing == c.standing and straight(a, c)
+    ]
+    if len(bends) < LEAST_STEPS:
+        return float("nan")
+    return float(1.4826 * np.median(np.abs(bends)) / math.sqrt(6.0))
+
+
+def straight(first: Passing, last: Passing, within_deg: float = 10.0) -> bool:
+    """Return whether the walk went on in the same direction."""
+    return float(first.forward @ last.forward) > math.cos(math.radians(within_deg))

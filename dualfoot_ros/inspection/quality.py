@@ -1,0 +1,121 @@
+"""The facts of one foot's samples: counts, rate, jitter, gaps, standstill, units, clipping."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.samples.series import FloatArray, ImuSeries
+from ..timing import Sync, clean
+from .standstill import Stand, first_stand
+from .stuck_values import Stuck, stuck_of
+
+CLIP_RATE = 4.0  # rad/s and m/s^2: below this an extreme that repeats is no clipping
+CLIP_FORCE = 15.0
+
+
+@dataclass(frozen=True)
+class Quality:
+    """What can be said of the samples of one foot.
+
+    Attributes
+    ----------
+    samples : all of them; ``usable`` are those with increasing stamps and finite values
+    not_finite, duplicate, out_of_order : refused samples
+    first_not_finite : index of the first one, or None
+    begins_anew : the stamps jump back for good somewhere (two recordings in one)
+    start_s, end_s : s, first and last usable stamp
+    rate_hz : Hz, from the median interval
+    jitter_s : s, 95 % of the intervals differ from the median by less (intervals without gaps)
+    gaps, longest_gap_s : intervals longer than ``Sync.max_gap``, and the longest interval
+    stand : the first standstill, or None
+    median_force, high_rate : median of |specific force|; 98 % quantile of |angular rate|
+    peak_force, peak_rate : greatest absolute value of an axis
+    clipped_force, clipped_rate : samples at the end of the range
+    stuck : what repeats itself
+    """
+
+    samples: int
+    usable: int
+    not_finite: int
+    duplicate: int
+    out_of_order: int
+    first_not_finite: int | None
+    begins_anew: bool
+    start_s: float
+    end_s: float
+    rate_hz: float
+    jitter_s: float
+    gaps: int
+    longest_gap_s: float
+    stand: Stand | None
+    median_force: float
+    high_rate: float
+    peak_force: float
+    peak_rate: float
+    clipped_force: int
+    clipped_rate: int
+    stuck: tuple[Stuck, ...] = ()
+
+    @property
+    def duration_s(self) -> float:
+        """Time from the first to the last usable sample, s."""
+        return self.end_s - self.start_s
+
+
+def quality_of(series: ImuSeries, config: Sync | None = None) -> Quality:
+    """Return the facts of ``series``."""
+    config = config or Sync()
+    good, counters, restart_at = clean(series, config)
+    finite = np.isfinite(series.specific_force) & np.isfinite(series.angular_rate)
+    bad = np.flatnonzero(~finite.all(axis=1))
+    steps = np.diff(good.stamp_ns)
+    regular = steps[steps <= config.max_gap_ns]
+    off = np.abs(regular - np.median(regular)) if len(regular) else np.zeros(1)
+    some = len(good) > 0
+    return Quality(
+        samples=len(series),
+        usable=len(good),
+        not_finite=len(bad),
+        duplicate=counters["duplicate"],
+        out_of_order=counters["out_of_order"],
+        first_not_finite=int(bad[0]) if len(bad) else None,
+        begins_anew=restart_at is not None,
+        start_s=int(good.stamp_ns[0]) * 1e-9 if some else float("nan"),
+        end_s=int(good.stamp_ns[-1]) * 1e-9 if some else float("nan"),
+        rate_hz=good.rate_hz,
+        jitter_s=float(np.quantile(off, 0.95)) * 1e-9,
+        gaps=counters["gap"],
+        longest_gap_s=float(steps.max()) * 1e-9 if len(steps) else 0.0,
+        stand=first_stand(good),
+        median_force=_quantile(good.specific_force, 0.5),
+        high_rate=_quantile(good.angular_rate, 0.98),
+        peak_force=float(np.abs(good.specific_force).max(initial=0.0)),
+        peak_rate=float(np.abs(good.angular_rate).max(initial=0.0)),
+        clipped_force=clipped(good.specific_force, CLIP_FORCE),
+        clipped_rate=clipped(good.angular_rate, CLIP_RATE),
+        stuck=stuck_of(good),
+    )
+
+
+def clipped(values: FloatArray, least: float) -> int:
+    """Count the samples (N, 3) at the end of the range: an extreme that stays for samples on end.
+
+    A range that is not reached has an extreme that occurs once; one that is reached repeats it.
+    ``least`` is the smallest value that can be the end of a range.
+    """
+    count = 0
+    for column in values.T:
+        for side in (column, -column):
+            top = side == side.max(initial=-np.inf)
+            held = top[1:] & top[:-1]
+            if held.any() and side.max() > least:
+                count += int(top.sum())
+    return count
+
+
+def _quantile(vectors: FloatArray, share: float) -> float:
+    if not len(vectors):
+        return float("nan")
+    return float(np.quantile(np.linalg.norm(vectors, axis=1), share))

@@ -1,0 +1,135 @@
+"""Sensors that repeat themselves: a value that does not change is no measurement.
+
+No real sensor gives the same six numbers for long, not even at rest; their last digits are noise.
+A coarse one may hold a single axis while it lies still, so an axis counts as stuck only while
+another axis of its triad moves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.samples.series import FloatArray, ImuSeries
+
+LEAST_S = 0.2  # a sensor that repeats itself while it cannot be at rest
+LEAST_AT_REST_S = 3.0
+LEAST_AXIS_S = 1.0
+LEAST_SAMPLES = 10
+AT_REST = (1.0, 0.2)  # m/s^2 from gravity, rad/s
+MOVES = (2.0, 1.0)  # m/s^2, rad/s, by which another axis moves meanwhile
+TRIADS = ("specific force", "angular rate")
+HELD = 0.3  # share of one value in a standstill; noise of several digits gives a hundredth
+NOISY = 0.1  # another axis of the triad that has less than this of one value is not coarse
+
+
+@dataclass(frozen=True)
+class Stuck:
+    """What repeats itself.
+
+    Attributes
+    ----------
+    what : "sensor", or triad and axis
+    times : how often it got stuck
+    first_s : s, when it first did, from the first sample
+    longest_s : s
+    share : of all samples
+    """
+
+    what: str
+    times: int
+    first_s: float
+    longest_s: float
+    share: float
+
+
+def stuck_of(series: ImuSeries) -> tuple[Stuck, ...]:
+    """Return what is stuck in the usable samples of one foot: the sensor, or single axes."""
+    if len(series) < 2 * LEAST_SAMPLES:
+        return ()
+    values = np.hstack([series.specific_force, series.angular_rate])
+    seconds = (series.stamp_ns - series.stamp_ns[0]) * 1e-9
+    whole = [r for r in _held(values) if _is_stuck(values, seconds, r)]
+    if whole:
+        return (_told("sensor", whole, seconds),)
+    found = []
+    for axis in range(6):
+        runs = [r for r in _held(values[:, [axis]]) if _moves_meanwhile(values, seconds, axis, r)]
+        if runs:
+            found.append(_told(f"{TRIADS[axis // 3]} {'xyz'[axis % 3]}", runs, seconds))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class Held:
+    """An axis that holds a value at rest: triad (0, 1), "x", "y" or "z", value, share of it."""
+
+    triad: int
+    axis: str
+    value: float
+    share: float
+
+
+def held_at_rest(still: ImuSeries) -> tuple[Held, ...]:
+    """Return the axes that measure nothing in a standstill: stuck there, or at a limit.
+
+    At rest nothing but noise moves a value.  An axis that holds its value all the time, or has
+    its greatest or smallest one in a large part of it, while the noise of another one moves that,
+    is stuck or clipped; so is a triad of which none moves.
+    """
+    if len(still) < 2 * LEAST_SAMPLES:
+        return ()
+    found = []
+    for triad, values in enumerate((still.specific_force, still.angular_rate)):
+        told = [_most(column) for column in values.T]
+        if min(share for _, share, _ in told) < NOISY or all(s == 1.0 for _, s, _ in told):
+            found += [
+                Held(triad, axis, value, share)
+                for axis, (value, share, at_end) in zip("xyz", told, strict=True)
+                if share > HELD and at_end
+            ]
+    return tuple(found)
+
+
+def _most(column: FloatArray) -> tuple[float, float, bool]:
+    """Return the value that is most frequent, its share, and whether it is at an end."""
+    values, counts = np.unique(column, return_counts=True)
+    most = int(np.argmax(counts))
+    return float(values[most]), float(counts[most] / len(column)), most in (0, len(values) - 1)
+
+
+def _held(values: FloatArray) -> list[tuple[int, int]]:
+    """Return first and last sample of each stretch in which no value changes."""
+    same = (np.diff(values, axis=0) == 0.0).all(axis=1)
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], same.astype(np.int8), [0]))))
+    runs = [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
+    return [(first, last) for first, last in runs if last - first + 1 >= LEAST_SAMPLES]
+
+
+def _is_stuck(values: FloatArray, seconds: FloatArray, run: tuple[int, int]) -> bool:
+    first, last = run
+    off = abs(float(np.linalg.norm(values[first, :3])) - 9.80665)
+    rest = off < AT_REST[0] and float(np.abs(values[first, 3:]).max()) < AT_REST[1]
+    return bool(seconds[last] - seconds[first] >= (LEAST_AT_REST_S if rest else LEAST_S))
+
+
+def _moves_meanwhile(
+    values: FloatArray, seconds: FloatArray, axis: int, run: tuple[int, int]
+) -> bool:
+    first, last = run
+    if seconds[last] - seconds[first] < LEAST_AXIS_S:
+        return False
+    triad = axis // 3
+    span = np.ptp(values[first : last + 1, 3 * triad : 3 * triad + 3], axis=0)
+    return bool(span.max() > MOVES[triad])
+
+
+def _told(what: str, runs: list[tuple[int, int]], seconds: FloatArray) -> Stuck:
+    return Stuck(
+        what,
+        len(runs),
+        float(seconds[runs[0][0]]),
+        max(float(seconds[last] - seconds[first]) for first, last in runs),
+        sum(last - first + 1 for first, last in runs) / len(seconds),
+    )

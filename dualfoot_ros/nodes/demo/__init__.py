@@ -1,0 +1,1 @@
+"""The demo: the real nodes on a recorded walk, compared with its truth."""

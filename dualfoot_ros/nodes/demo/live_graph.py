@@ -1,0 +1,203 @@
+"""A recording through the real nodes, as fast as they go and without loss, in this process.
+
+replay -> time_sync -> fusion (one for each method) -> collector.  Each takes its samples from
+topics as any node does; only the speed is set by how far the slowest of them has come.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from ...core import DualFootTracker, TrackerConfig, Trajectory
+from ...core.errors import DualFootError
+from ...core.results.trajectory import FEET
+from ...core.samples.series import ImuSeries, PressureSeries
+from ...core.tracker import fields_of
+from ...timing import align
+from ..fusion import FusionNode
+from ..inputs.field_topics import TOPICS as MAGNETIC
+from ..inputs.pressure_topics import TOPICS
+from ..replay import ReplayNode
+from ..ros.program import destroy
+from ..time_sync import TimeSyncNode
+from .collector import CollectorNode
+
+AHEAD = 200  # samples that may be under way between two nodes
+PATIENCE_S = 5.0  # without progress: what is missing was lost
+SPINS = 50  # between two looks at the progress
+Progress = Callable[[float], None]
+
+
+@dataclass(frozen=True)
+class LiveRun:
+    """What one fusion node published, and what became of the samples on the way."""
+
+    trajectory: Trajectory
+    lost: int
+    refused: Mapping[str, int]
+
+
+class LiveGraph:
+    """The nodes of a run, and how far each has come."""
+
+    def __init__(
+        self, bag: Path, configs: Mapping[str, TrackerConfig], context: rclpy.Context
+    ) -> None:
+        self.context = context
+        self._names = list(configs)
+        # The numbers of the process keep the demonstration apart from any other graph.
+        self._space = f"dualfoot_{time.time_ns() % 10**9}"
+        self._nodes: list[Node] = []
+        try:
+            self._build(bag, configs)
+        except BaseException:
+            destroy(self._nodes)
+            raise
+
+    def _build(self, bag: Path, configs: Mapping[str, TrackerConfig]) -> None:
+        self.sync = self._add(TimeSyncNode, {}, "")
+        self.fusions, self.collectors = {}, {}
+        for name, config in configs.items():
+            space = f"/{name}"
+            values = {**config.to_mapping(), "sync": "external", "engine": "compiled"}
+            self.fusions[name] = self._add(
+                FusionNode, values, space, cli_args=_inputs(self._space)
+            )
+            self.collectors[name] = self._add(CollectorNode, {}, space)
+        values = {"bag": str(bag), "clock": False}
+        self.replay = self._add(ReplayNode, values, "", gate=self._may_go_on)
+
+    def _add(self, kind: Callable[..., Any], values: dict, space: str, **options: Any) -> Any:
+        overrides = [Parameter(name, value=value) for name, value in values.items()]
+        node = kind(
+            context=self.context,
+            namespace=f"/{self._space}{space}",
+            parameter_overrides=overrides,
+            **options,
+        )
+        self._nodes.append(node)
+        return node
+
+    def _under_way(self) -> list[int]:
+        """Return how many samples wait between the nodes, a number a hop."""
+        received = sum(each.received for each in self.sync.inputs.values())
+        pairs = self.sync.aligner.counters["pairs"]
+        pressures = self.replay.pressure.sent
+        fields = sum(each.sent for each in self.replay.fields.values())
+        found = [self.replay.player.played - pressures - fields - received]
+        for name, fusion in self.fusions.items():
+            collector = self.collectors[name].messages
+            found.append(2 * pairs - sum(each.received for each in fusion.inputs.values()))
+            if fusion.pressure is not None:
+                found.append(pressures - fusion.pressure.received)
+            if fusion.fields is not None:
+                found.append(fields - fusion.fields.received)
+            found.append(3 * fusion.outputs.published - sum(map(len, collector.values())))
+        return found
+
+    def _may_go_on(self) -> bool:
+        return max(self._under_way()) < AHEAD
+
+    def run(self, progress: Progress) -> None:
+        """Spin until everything has arrived, or nothing has moved for a while.
+
+        Raises
+        ------
+        DualFootError
+            When the bag was not played to its end.
+        """
+        executor = SingleThreadedExecutor(context=self.context)
+        try:
+            for node in self._nodes:
+                executor.add_node(node)
+            self.replay.player.start()
+            self._spin(executor, progress)
+        finally:
+            executor.shutdown()
+        if not self.replay.done.done():
+            raise DualFootError(
+                f"the replay stopped after {self.replay.player.played} of "
+                f"{self.replay.total} samples"
+            )
+
+    def _spin(self, executor: SingleThreadedExecutor, progress: Progress) -> None:
+        state: tuple[int, ...] = ()
+        since = time.monotonic()
+        while time.monotonic() - since < PATIENCE_S:
+            for _ in range(SPINS):
+                executor.spin_once(timeout_sec=0.05)
+                if self.replay.done.done() and not any(self._under_way()):
+                    return
+            progress(self.replay.player.played / self.replay.total)
+            now = (self.replay.player.played, *self._under_way())
+            if now != state:
+                state, since = now, time.monotonic()
+
+    def result(self, name: str) -> LiveRun:
+        """Return what the fusion node of a method published."""
+        fusion = self.fusions[name]
+        method, counters = fusion.tracker.config.method, dict(fusion.tracker.counters)
+        inputs = [*self.sync.inputs.values(), *fusion.inputs.values()]
+        lost = sum(each.lost for each in inputs) + sum(max(0, n) for n in self._under_way())
+        return LiveRun(self.collectors[name].trajectory(method, counters), lost, counters)
+
+    def close(self) -> None:
+        """Destroy the nodes."""
+        destroy(self._nodes)
+
+
+def run_live(
+    bag: Path,
+    configs: Mapping[str, TrackerConfig],
+    context: rclpy.Context,
+    progress: Progress = lambda share: None,
+) -> dict[str, LiveRun]:
+    """Replay ``bag`` through the nodes, one fusion node a configuration.
+
+    Raises
+    ------
+    DualFootError
+        When the bag cannot be read.
+    """
+    graph = LiveGraph(bag, configs, context)
+    try:
+        graph.run(progress)
+        return {name: graph.result(name) for name in configs}
+    finally:
+        graph.close()
+
+
+def run_offline(
+    series: Mapping[str, ImuSeries],
+    config: TrackerConfig,
+    pressure: Mapping[str, PressureSeries] | None = None,
+) -> Trajectory:
+    """Return the batch run of the same samples."""
+    pair = series["left"], series["right"]
+    left, right = align(*pair)
+    return DualFootTracker(config).run(left, right, pressure, fields_of(*pair))
+
+
+def same_bits(live: Trajectory, batch: Trajectory) -> bool:
+    """Tell whether two runs agree to the bit in all that is published unchanged."""
+    pairs = [(live.left, batch.left), (live.right, batch.right)]
+    fields = ("stamp_ns", "position", "quaternion", "position_covariance", "attitude_covariance")
+    return all(
+        np.array_equal(getattr(a, field), getattr(b, field)) for a, b in pairs for field in fields
+    )
+
+
+def _inputs(space: str) -> list[str]:
+    names = [*(f"{foot}/imu/data_sync" for foot in FEET), *TOPICS.values(), *MAGNETIC.values()]
+    remaps = [f"{name}:=/{space}/{name}" for name in names]
+    return ["--ros-args", *(word for remap in remaps for word in ("-r", remap))]

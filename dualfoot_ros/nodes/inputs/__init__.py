@@ -1,0 +1,1 @@
+"""What the nodes take in: stamps, calibrations, field and pressure topics."""

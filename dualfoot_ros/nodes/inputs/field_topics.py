@@ -1,0 +1,95 @@
+"""The magnetic field of the feet's sensors, in and out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from rclpy.node import Node
+from sensor_msgs.msg import MagneticField
+
+from ...core.results.trajectory import FEET
+from ...core.samples.series import FloatArray
+from ...recording.topics import Topics
+from ...settings.nodes import Input as InputOptions
+from ...timing import Stamping
+from ..ros import qos
+from ..ros.messages import set_time, to_ns
+from ..ros.watched_input import Complaint, Input, watched_publisher
+
+TOPICS = {foot: Topics().of(foot).magnetic_field.lstrip("/") for foot in FEET}
+Take = Callable[[str, int, list[float]], Any]
+
+
+class FieldInput(Input):
+    """One foot's field; says what misses it when nothing comes."""
+
+    def __init__(
+        self, node: Node, foot: str, take: Callable[[MagneticField], None], depth: int
+    ) -> None:
+        """Hand every message to ``take``."""
+        super().__init__(node, MagneticField, TOPICS[foot], take, qos.sensor(depth))
+        self._foot = foot
+
+    def complaint(self, options: InputOptions) -> Complaint | None:
+        """Return why nothing came for ``options.silence``, or None when something did."""
+        found = super().complaint(options)
+        if found is None:
+            return None
+        said = (
+            f"aids.magnetic_heading is on but there is no magnetic field of the {self._foot} foot"
+        )
+        return Complaint(found.level, f"{said}: {found.message}")
+
+
+class FieldInputs:
+    """Subscriptions to both feet's fields, stamped as the samples of their feet are.
+
+    A field has no clock of its own: what the stamping adds to the samples it adds to the field.
+    """
+
+    def __init__(self, node: Node, take: Take, stamping: Stamping, depth: int) -> None:
+        """``take`` is called with foot, stamp (ns) and field (3,) T."""
+        self._take = take
+        self._added_ns: dict[str, int | None] = {
+            foot: stamping.offset_ns(foot) if stamping.policy(foot) == "header" else None
+            for foot in FEET
+        }
+        self.feet = {foot: FieldInput(node, foot, self._receiver(foot), depth) for foot in FEET}
+
+    @property
+    def received(self) -> int:
+        """Messages of both feet that have arrived."""
+        return sum(each.received for each in self.feet.values())
+
+    def stamped(self, foot: str, header_ns: int, stamp_ns: int) -> None:
+        """Take note of the stamp that a sample of ``foot`` was given."""
+        self._added_ns[foot] = stamp_ns - header_ns
+
+    def _receiver(self, foot: str) -> Callable[[MagneticField], None]:
+        def receive(message: MagneticField) -> None:
+            added_ns, b = self._added_ns[foot], message.magnetic_field
+            if added_ns is not None:  # the clock of the samples is known
+                self._take(foot, to_ns(message.header.stamp) + added_ns, [b.x, b.y, b.z])
+
+        return receive
+
+
+class FieldOutput:
+    """Publishes one sensor's field; ``sent`` counts what has gone out."""
+
+    def __init__(self, node: Node, topic: str, frame_id: str, depth: int) -> None:
+        """Publish on ``topic``."""
+        self.sent = 0
+        self._out = watched_publisher(node, MagneticField, topic, qos.sensor(depth))
+        self._message = MagneticField()
+        self._message.header.frame_id = frame_id
+
+    def publish(self, stamp_ns: int, tesla: Sequence[float] | FloatArray) -> None:
+        """Publish one field (3,) T; its covariance is unknown."""
+        message = self._message
+        set_time(message.header.stamp, stamp_ns)
+        field = message.magnetic_field
+        field.x, field.y, field.z = (float(each) for each in tesla)
+        self._out.publish(message)
+        self.sent += 1

@@ -1,0 +1,87 @@
+"""Air pressure as an input: barometers on the feet or on the body, whichever there are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.node import Node
+from sensor_msgs.msg import FluidPressure
+
+from ...core.samples.series import PressureSeries
+from ...recording.topics import PRESSURE_TOPICS
+from ...settings.nodes import Input as InputOptions
+from ..ros import qos
+from ..ros.messages import set_time, to_ns
+from ..ros.watched_input import Complaint, Input, watched_publisher
+
+TOPICS = {worn: topic.lstrip("/") for worn, topic in PRESSURE_TOPICS.items()}
+Take = Callable[[str, int, float], Any]
+
+
+class PressureInputs:
+    """Subscriptions to all pressure topics, of which one that delivers is enough.
+
+    To a :class:`dualfoot_ros.nodes.ros.watched_input.Watch` it is one input.
+    """
+
+    def __init__(self, node: Node, take: Take, depth: int) -> None:
+        """``take`` is called with where the sensor is worn, stamp (ns) and pressure (Pa)."""
+        profile = qos.sensor(depth)
+        self._inputs = [
+            Input(node, FluidPressure, topic, _receiver(worn, take), profile)
+            for worn, topic in TOPICS.items()
+        ]
+
+    @property
+    def topic(self) -> str:
+        """The names of the topics."""
+        return " or ".join(each.topic for each in self._inputs)
+
+    @property
+    def received(self) -> int:
+        """Samples that have arrived."""
+        return sum(each.received for each in self._inputs)
+
+    @property
+    def lost(self) -> int:
+        """Samples that were published but have not arrived."""
+        return sum(each.lost for each in self._inputs)
+
+    def complaint(self, options: InputOptions) -> Complaint | None:
+        """Return why no sensor delivers, or None when one does; as bad as the best of them."""
+        found = [each.complaint(options) for each in self._inputs]
+        reasons = [each for each in found if each is not None]
+        if len(reasons) < len(found):
+            return None
+        said = "; ".join(each.message for each in reasons)
+        return Complaint(
+            min(each.level for each in reasons),
+            f"aids.barometer is on but there is no air pressure: {said}",
+        )
+
+
+def _receiver(worn: str, take: Take) -> Callable[[FluidPressure], None]:
+    def receive(message: FluidPressure) -> None:
+        take(worn, to_ns(message.header.stamp), message.fluid_pressure)
+
+    return receive
+
+
+class PressureOutputs:
+    """Publishers of recorded pressure; ``sent`` counts what has gone out."""
+
+    def __init__(self, node: Node, pressure: dict[str, PressureSeries], depth: int) -> None:
+        """Publish for the sensors that ``pressure`` has, by where they are worn."""
+        self.sent = 0
+        self._out = {
+            TOPICS[worn]: watched_publisher(node, FluidPressure, TOPICS[worn], qos.sensor(depth))
+            for worn in pressure
+        }
+
+    def publish(self, topic: str, stamp_ns: int, pascal: float) -> None:
+        """Publish one sample."""
+        message = FluidPressure(fluid_pressure=pascal)
+        set_time(message.header.stamp, stamp_ns)
+        self._out[topic].publish(message)
+        self.sent += 1

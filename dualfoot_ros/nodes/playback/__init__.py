@@ -1,0 +1,1 @@
+"""Playing bags into topics, and recording topics."""

@@ -1,0 +1,63 @@
+"""Writes topics to a bag while they are published: whole or not at all."""
+
+from __future__ import annotations
+
+import time
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
+
+from ...recording.atomic import check_target, new_directory
+from ...recording.open_bag import METADATA
+
+
+class RecorderNode(Node):
+    """Records topics as they come, in MCAP, logged at the time of the node's clock."""
+
+    def __init__(
+        self, path: Path, topics: dict[str, tuple[Any, QoSProfile]], **options: Any
+    ) -> None:
+        """Record ``topics``, name -> (message type, profile), to the new folder ``path``.
+
+        Raises
+        ------
+        RecordingError
+            When ``path`` exists already.
+        OSError
+            When it cannot be written.
+        """
+        super().__init__("recorder", **options)
+        check_target(path, overwrite=False, marker=METADATA)
+        self.recorded = 0
+        self._stack = ExitStack()
+        folder = self._stack.enter_context(new_directory(path, overwrite=False, marker=METADATA))
+        self._writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
+        self._stack.enter_context(self._writer)
+        self._types = get_typestore(Stores.ROS2_JAZZY)
+        self._inputs = [self._subscribe(name, *item) for name, item in topics.items()]
+
+    def _subscribe(self, topic: str, message_type: Any, profile: QoSProfile) -> Any:
+        name = self.resolve_topic_name(topic)
+        package = message_type.__module__.split(".")[0]
+        type_name = f"{package}/msg/{message_type.__name__}"
+        connection = self._writer.add_connection(name, type_name, typestore=self._types)
+
+        def write(data: bytes) -> None:
+            self._writer.write(connection, self._now_ns(), data)
+            self.recorded += 1
+
+        return self.create_subscription(message_type, topic, write, profile, raw=True)
+
+    def _now_ns(self) -> int:
+        """Return the time of the node's clock, or of the wall before /clock has come."""
+        return self.get_clock().now().nanoseconds or time.time_ns()
+
+    def destroy_node(self) -> None:
+        """Close the bag, then destroy the node."""
+        self._stack.close()
+        super().destroy_node()

@@ -1,0 +1,122 @@
+"""What fusion publishes of one update: odometry of feet and person, paths, events, frames."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import TransformStamped
+from nav_msgs.msg import Odometry
+from nav_msgs.msg import Path as PathMessage
+from rclpy.node import Node
+
+from ...core.errors import ConfigError
+from ...core.results.trajectory import FEET, EventKind
+from ...core.results.update import Update
+from ...settings.nodes import Frames
+from ...settings.nodes import Path as PathOptions
+from ..ros import qos
+from ..ros.messages import fill_foot, fill_pedestrian, new_odometry
+from . import event_messages as events
+from .foot_path import FootPath
+
+EVENTS_KEPT = 200
+
+
+class Outputs:
+    """Publishers of the node ``fusion``, and the messages they fill again and again."""
+
+    def __init__(
+        self, node: Node, frames: Frames, path: PathOptions, gyro_density: float, tf: bool
+    ) -> None:
+        """``gyro_density`` (rad/s/sqrt(Hz)) gives the noise of the published angular rate."""
+        children = {"left": frames.left, "right": frames.right}
+        self._gyro_density = gyro_density
+        self._feet = {f: new_odometry(frames.odom, children[f]) for f in FEET}
+        self._person = new_odometry(frames.odom, frames.pedestrian)
+        self._odometry = {
+            f: node.create_publisher(Odometry, f"{f}/odometry", qos.result()) for f in FEET
+        }
+        self._pedestrian = node.create_publisher(Odometry, "odometry", qos.result())
+        self._paths = {f: FootPath(f, frames.odom, path.length, path.period) for f in FEET}
+        self._path = {
+            f: node.create_publisher(PathMessage, f"{f}/path", qos.latched()) for f in FEET
+        }
+        self._events = node.create_publisher(DiagnosticArray, "~/events", qos.latched(EVENTS_KEPT))
+        self._tf = FrameBroadcaster(node) if tf else None
+        self._last_ns: int | None = None
+        self.published = 0
+
+    def publish(self, update: Update) -> None:
+        """Publish everything that ``update`` brings."""
+        if update.announced:
+            self._events.publish(events.to_message(update.announced, update.stamp_ns))
+            if any(event.kind is EventKind.RESET for event in update.announced):
+                self.clear()
+        person = update.pedestrian()
+        if person is None:
+            return
+        variance = self._rate_variance(update.stamp_ns)
+        for foot in FEET:
+            self._publish_foot(foot, update, variance)
+        fill_pedestrian(self._person, update.stamp_ns, person)
+        self._pedestrian.publish(self._person)
+        if self._tf is not None:
+            self._tf.publish([self._person, *self._feet.values()])
+        self.published += 1
+
+    def _publish_foot(self, foot: str, update: Update, rate_variance: float) -> None:
+        estimate = update.left if foot == "left" else update.right
+        assert estimate is not None
+        message, path, stamp_ns = self._feet[foot], self._paths[foot], update.stamp_ns
+        fill_foot(message, stamp_ns, estimate, rate_variance)
+        self._odometry[foot].publish(message)
+        path.add(stamp_ns, estimate, update.announced)
+        if path.due(stamp_ns):
+            self._path[foot].publish(path.message())
+
+    def clear(self) -> None:
+        """Begin the paths anew."""
+        for path in self._paths.values():
+            path.clear()
+
+    def _rate_variance(self, stamp_ns: int) -> float:
+        """Return the variance of one angular rate at the present sampling interval."""
+        before, self._last_ns = self._last_ns, stamp_ns
+        interval_s = 5e-3 if before is None else max(1e-4, (stamp_ns - before) * 1e-9)
+        return self._gyro_density**2 / interval_s
+
+
+class FrameBroadcaster:
+    """Sends frames on /tf; needs tf2_msgs, which not every installation has.
+
+    Raises
+    ------
+    ConfigError
+        When it cannot be imported.
+    """
+
+    def __init__(self, node: Node) -> None:
+        try:
+            from tf2_msgs.msg import TFMessage
+        except ImportError:
+            raise ConfigError(
+                "parameter 'publish_tf' is true, but tf2_msgs cannot be imported; install "
+                "ros-jazzy-tf2-msgs, or leave publish_tf false and use the odometry topics"
+            ) from None
+        self._new: Any = TFMessage
+        self._publisher = node.create_publisher(TFMessage, "/tf", qos.result(100))
+
+    def publish(self, odometry: Sequence[Odometry]) -> None:
+        """Send the pose of each message as a frame."""
+        self._publisher.publish(self._new(transforms=[_transform(each) for each in odometry]))
+
+
+def _transform(odometry: Odometry) -> TransformStamped:
+    found = TransformStamped(header=odometry.header, child_frame_id=odometry.child_frame_id)
+    position = odometry.pose.pose.position
+    translation = found.transform.translation
+    translation.x, translation.y, translation.z = position.x, position.y, position.z
+    found.transform.rotation = odometry.pose.pose.orientation
+    return found

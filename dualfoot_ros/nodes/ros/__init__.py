@@ -1,0 +1,1 @@
+"""What all nodes share of ROS: parameters, QoS, messages, diagnostics, start and end."""

@@ -1,0 +1,88 @@
+"""ROS parameters from the declared ones: types, ranges, descriptions, and what was misspelt."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping
+from typing import Any, TypeVar
+
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+)
+from rclpy.node import Node
+
+from ...core.config import GROUPS, all_specs
+from ...core.constraints import METHODS
+from ...core.parameters import Parameters, ParameterSpec, check
+from ...settings.nodes import node_parameter_names
+
+Group = TypeVar("Group", bound=Parameters)
+OF_RCLPY = ("use_sim_time", "start_type_description_service")
+
+
+def declare(node: Node, specs: Iterable[ParameterSpec]) -> dict[str, Any]:
+    """Declare parameters on ``node``, read-only, and return the values they have been given.
+
+    A whole number is taken for a real one.  Overrides that no node of the package knows are
+    warned about; the effective configuration is logged once.
+
+    Raises
+    ------
+    ConfigError
+        When a value has the wrong type or is out of its range.
+    """
+    given = {name: parameter.value for name, parameter in node._parameter_overrides.items()}
+    values = {}
+    for spec in specs:
+        value = check(spec, given.get(spec.name, spec.default))
+        plain = list(value) if isinstance(value, tuple) else value
+        node.declare_parameter(spec.name, plain, descriptor(spec), ignore_override=True)
+        values[spec.name] = value
+    for name in given:
+        _warn_if_unknown(node, name, values)
+    node.get_logger().info("configuration: " + _words(values))
+    return values
+
+
+def group(cls: type[Group], values: Mapping[str, Any], prefix: str = "") -> Group:
+    """Return the part of ``values`` that a parameter group declares."""
+    return cls(**{spec.name: values[prefix + spec.name] for spec in cls.specs()})
+
+
+def descriptor(spec: ParameterSpec) -> ParameterDescriptor:
+    """Return description, range and constraint of a parameter as ROS shows them."""
+    found = ParameterDescriptor(
+        name=spec.name,
+        description=spec.description,
+        additional_constraints=spec.allowed,
+        read_only=True,
+    )
+    if spec.minimum is None or spec.maximum is None:
+        return found
+    if isinstance(spec.default, float):
+        found.floating_point_range = [
+            FloatingPointRange(from_value=float(spec.minimum), to_value=float(spec.maximum))
+        ]
+    elif isinstance(spec.default, int):
+        found.integer_range = [
+            IntegerRange(from_value=int(spec.minimum), to_value=int(spec.maximum), step=1)
+        ]
+    return found
+
+
+def _warn_if_unknown(node: Node, name: str, own: Mapping[str, Any]) -> None:
+    known = {*own, *node_parameter_names(), *(spec.name for spec in all_specs()), *OF_RCLPY}
+    if name in known or name.startswith("qos_overrides."):
+        return
+    near = difflib.get_close_matches(name, sorted(known), n=1)
+    hint = f"; did you mean '{near[0]}'?" if near else ""
+    node.get_logger().warning(f"parameter '{name}' is not known and has no effect{hint}")
+
+
+def _words(values: Mapping[str, Any]) -> str:
+    """Return the values in words, without those of methods that are not in use."""
+    idle = set(METHODS) - {values.get("method"), *GROUPS}
+    shown = {name: v for name, v in values.items() if name.partition(".")[0] not in idle}
+    return ", ".join(f"{name}={value}" for name, value in shown.items())

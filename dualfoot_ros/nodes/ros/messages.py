@@ -1,0 +1,138 @@
+"""Messages to arrays and back; the only place that knows their fields."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import Pose, PoseStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Imu
+
+from ...core.results.update import FootEstimate, PedestrianEstimate, quaternion_yaw
+from ...core.samples.series import FloatArray
+
+SECOND = 1_000_000_000
+UNKNOWN_RATE_VARIANCE = 1.0e3  # (rad/s)^2; the person's turning rate is not estimated
+
+
+def to_ns(time: Time) -> int:
+    """Return a stamp in ns."""
+    return int(time.sec) * SECOND + int(time.nanosec)
+
+
+def set_time(time: Time, stamp_ns: int) -> None:
+    """Put ``stamp_ns`` into ``time``."""
+    time.sec, time.nanosec = divmod(stamp_ns, SECOND)
+
+
+def imu_values(message: Imu) -> FloatArray:
+    """Return specific force and angular rate (6,) of a message."""
+    force, rate = message.linear_acceleration, message.angular_velocity
+    return np.array([force.x, force.y, force.z, rate.x, rate.y, rate.z])
+
+
+def set_imu_values(message: Imu, values: FloatArray) -> None:
+    """Put specific force and angular rate (6,) into a message."""
+    force, rate = message.linear_acceleration, message.angular_velocity
+    force.x, force.y, force.z, rate.x, rate.y, rate.z = values.tolist()
+
+
+def new_imu(frame_id: str) -> Imu:
+    """Return a message without orientation and of unknown covariance, as in REP 145."""
+    message = Imu()
+    message.header.frame_id = frame_id
+    message.orientation_covariance[0] = -1.0
+    return message
+
+
+def rotation_matrix(quaternion: FloatArray) -> FloatArray:
+    """Return R_nb (3, 3) of a unit quaternion (x, y, z, w)."""
+    x, y, z, w = quaternion.tolist()
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def yaw_quaternion(yaw: float) -> FloatArray:
+    """Return the quaternion (x, y, z, w) of a rotation about z."""
+    return np.array([0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw)])
+
+
+def set_pose(pose: Pose, position: FloatArray, quaternion: FloatArray) -> None:
+    """Put position (3,) m and quaternion (x, y, z, w) into ``pose``."""
+    p, q = pose.position, pose.orientation
+    p.x, p.y, p.z = position.tolist()
+    q.x, q.y, q.z, q.w = quaternion.tolist()
+
+
+def new_odometry(frame_id: str, child_frame_id: str) -> Odometry:
+    """Return an empty message between two frames."""
+    message = Odometry(child_frame_id=child_frame_id)
+    message.header.frame_id = frame_id
+    return message
+
+
+def fill_foot(message: Odometry, stamp_ns: int, foot: FootEstimate, rate_variance: float) -> None:
+    """Put a foot's estimate into ``message``; the twist in the child frame.
+
+    ``rate_variance`` (rad/s)^2 is the noise of one angular rate.
+    """
+    set_time(message.header.stamp, stamp_ns)
+    set_pose(message.pose.pose, foot.position, foot.quaternion)
+    message.pose.covariance = foot.pose_covariance().ravel()
+    to_body = rotation_matrix(foot.quaternion).T
+    linear, angular = message.twist.twist.linear, message.twist.twist.angular
+    linear.x, linear.y, linear.z = (to_body @ foot.velocity).tolist()
+    angular.x, angular.y, angular.z = foot.angular_rate.tolist()
+    covariance = to_body @ foot.twist_covariance() @ to_body.T
+    message.twist.covariance = _twist_covariance(covariance, rate_variance)
+
+
+def fill_pedestrian(message: Odometry, stamp_ns: int, person: PedestrianEstimate) -> None:
+    """Put the person's estimate into ``message``; the twist in the child frame."""
+    set_time(message.header.stamp, stamp_ns)
+    quaternion = yaw_quaternion(person.heading)
+    set_pose(message.pose.pose, person.position, quaternion)
+    message.pose.covariance = person.pose_covariance.ravel()
+    to_body = rotation_matrix(quaternion).T
+    linear = message.twist.twist.linear
+    linear.x, linear.y, linear.z = (to_body @ person.velocity).tolist()
+    covariance = to_body @ person.velocity_covariance @ to_body.T
+    message.twist.covariance = _twist_covariance(covariance, UNKNOWN_RATE_VARIANCE)
+
+
+def pose_stamped(frame_id: str, stamp_ns: int, position: FloatArray, q: FloatArray) -> PoseStamped:
+    """Return a pose with its stamp."""
+    message = PoseStamped()
+    message.header.frame_id = frame_id
+    set_time(message.header.stamp, stamp_ns)
+    set_pose(message.pose, position, q)
+    return message
+
+
+def pose_of(pose: Pose) -> tuple[FloatArray, FloatArray]:
+    """Return position (3,) and quaternion (x, y, z, w) of ``pose``."""
+    p, q = pose.position, pose.orientation
+    return np.array([p.x, p.y, p.z]), np.array([q.x, q.y, q.z, q.w])
+
+
+def pose_yaw(pose: Pose) -> tuple[FloatArray, float] | None:
+    """Return position (3,) m and yaw (rad) of ``pose``, or None when they are no numbers."""
+    position, quaternion = pose_of(pose)
+    norm = float(np.linalg.norm(quaternion))
+    if not (np.isfinite(position).all() and 1e-6 < norm < math.inf):
+        return None
+    return position, quaternion_yaw(quaternion / norm)
+
+
+def _twist_covariance(linear: FloatArray, rate_variance: float) -> FloatArray:
+    covariance = np.zeros((6, 6))
+    covariance[:3, :3] = linear
+    covariance[[3, 4, 5], [3, 4, 5]] = rate_variance
+    return covariance.ravel()

@@ -1,0 +1,171 @@
+"""Start-up and shutdown of every executable of the package, in one place.
+
+SIGINT and SIGTERM end a program with exit code 0; a wrong parameter, file or argument with 2 and
+one sentence on stderr.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import signal
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+from rclpy.utilities import remove_ros_args
+
+from ...core.errors import DualFootError
+from ...core.parameters import ParameterSpec
+
+SOURCE_LINE = re.compile(r" ?, at \S+:\d+")  # where in rcl's own source an error was found
+STOPPED = (KeyboardInterrupt, ExternalShutdownException)
+
+
+@dataclass(frozen=True)
+class Program:
+    """What ``--help`` says about an executable."""
+
+    name: str
+    summary: str
+    examples: str
+    specs: Sequence[ParameterSpec] = ()
+
+    def check_arguments(self, argv: Sequence[str]) -> None:
+        """Answer --help and refuse arguments that ROS does not take away, or cannot read."""
+        parser = argparse.ArgumentParser(
+            prog=self.name,
+            description=self.summary,
+            epilog=f"examples:\n{self.examples}\nparameters (-p NAME:=VALUE):\n{self._table()}",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            usage=f"{self.name} [-h] [--ros-args -p NAME:=VALUE --params-file YAML -r FROM:=TO]",
+        )
+        with _ros_arguments():
+            rest = remove_ros_args(["", *argv])[1:]
+        parser.parse_args(rest)
+
+    def _table(self) -> str:
+        lines = [
+            f"  {spec.name}  {spec.description} ({spec.allowed}; default {spec.default!r})"
+            for spec in self.specs
+        ]
+        return "\n".join(lines)
+
+
+@dataclass(frozen=True)
+class Graph:
+    """Nodes of one process; the program ends when ``done`` is (never, when it is None)."""
+
+    nodes: Sequence[Node]
+    done: Future | None = None
+
+
+def run_nodes(
+    program: Program, build: Callable[[], Graph], argv: Sequence[str] | None = None
+) -> int:
+    """Run the nodes that ``build`` makes until a signal or their end; return the exit code."""
+    argv = sys.argv[1:] if argv is None else list(argv)
+    try:
+        program.check_arguments(argv)
+        with started(argv):
+            _spin(build())
+    except STOPPED:
+        return 0
+    except DualFootError as error:
+        return _refuse(program, str(error))
+    except OSError as error:
+        return _refuse(program, str(error))
+    finally:
+        _ignore_signals()
+    return 0
+
+
+@contextmanager
+def started(argv: Sequence[str]) -> Iterator[None]:
+    """Have the default context of rclpy for the block; always shut it down.
+
+    Raises
+    ------
+    DualFootError
+        When ROS cannot read its arguments or parameter files.
+    """
+    # rclpy ends the context at SIGINT; a KeyboardInterrupt besides could strike anywhere, even in
+    # a callback of the import machinery, which can only print it.
+    signal.signal(signal.SIGINT, lambda *_: None)
+    with _ros_arguments():
+        rclpy.init(args=["", *argv])
+    try:
+        yield
+    except Exception:
+        if rclpy.ok():
+            raise
+        # The signal came between two steps of the start-up, and the context was gone for the next.
+        raise ExternalShutdownException from None
+    finally:
+        _ignore_signals()
+        rclpy.try_shutdown()
+
+
+@contextmanager
+def _ros_arguments() -> Iterator[None]:
+    """Turn what rcl says about arguments and parameter files into one sentence."""
+    try:
+        yield
+    except Exception as error:  # the classes of rcl's errors have no public name
+        reason = in_one_line(error)
+        raise DualFootError(f"the arguments after --ros-args cannot be read: {reason}") from None
+
+
+def in_one_line(error: Exception) -> str:
+    """Return what rcl says, without line breaks and without where in its source it says so."""
+    return SOURCE_LINE.sub("", " ".join(str(error).split()))
+
+
+def _spin(graph: Graph) -> None:
+    executor = SingleThreadedExecutor()
+    try:
+        for node in graph.nodes:
+            executor.add_node(node)
+        if graph.done is None:
+            executor.spin()
+        else:
+            _spin_until(graph.done, executor)
+    finally:
+        _ignore_signals()
+        executor.shutdown()
+        destroy(graph.nodes)
+
+
+def _spin_until(done: Future, executor: SingleThreadedExecutor) -> None:
+    """Spin until ``done`` is, and raise what ended it, if that was an error.
+
+    The executor's own method for this leaves something on the future for every callback that it
+    executes, so a process that lives for days would grow and grow.
+    """
+    done.add_done_callback(lambda _: executor.create_task(lambda: None))  # wakes it
+    while executor.context.ok() and not done.done():
+        executor.spin_once()
+    if done.done():
+        done.result()
+
+
+def destroy(nodes: Iterable[Node]) -> None:
+    """Destroy nodes, those first that were made last."""
+    for node in reversed(list(nodes)):
+        node.destroy_node()
+
+
+def _ignore_signals() -> None:
+    """A terminal can deliver SIGINT twice; the second must not interrupt the shutdown."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+
+
+def _refuse(program: Program, reason: str) -> int:
+    sys.stderr.write(f"{program.name}: error: {reason}\n")
+    return 2

@@ -1,0 +1,220 @@
+"""Parameters of the ROS nodes beside those of the tracker: declared here, without any ROS."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ..core.parameters import Parameters, ParameterSpec, parameter
+from ..core.samples.mounting import Mounting
+from ..drivers.checks import Checks
+from ..timing import ClockModel, Stamping, Sync
+from ..timing.clock.stamps import POLICIES
+
+SYNC_CHOICES = ("internal", "external")
+
+
+@dataclass(frozen=True)
+class Input(Parameters):
+    """How a node listens to its sensors."""
+
+    depth: int = parameter(
+        1000, "queue of each input, samples (2 s at 500 Hz)", minimum=1, maximum=100000
+    )
+    silence: float = parameter(
+        2.5,
+        "error when an input was silent for so long; of one that has not begun yet, a warning",
+        unit="s",
+        minimum=0.1,
+        maximum=3600.0,
+    )
+    first: float = parameter(
+        20.0,
+        "error when the first sample takes longer, from when its publisher or link is there; "
+        "meanwhile a device connects and its clock is learnt",
+        unit="s",
+        minimum=0.0,
+        maximum=3600.0,
+    )
+
+
+@dataclass(frozen=True)
+class Frames(Parameters):
+    """Frame ids of what fusion publishes."""
+
+    odom: str = parameter("odom", "frame of the trajectories; map if steps disturb its users")
+    left: str = parameter("left_foot", "frame of the left foot's sensor")
+    right: str = parameter("right_foot", "frame of the right foot's sensor")
+    pedestrian: str = parameter("base_footprint", "frame of the person between the feet")
+
+
+@dataclass(frozen=True)
+class Path(Parameters):
+    """The paths of the feet: one pose a stance and the newest."""
+
+    length: int = parameter(1000, "poses kept; the oldest are dropped", minimum=2, maximum=100000)
+    period: float = parameter(
+        1.0, "least time between two messages", unit="s", minimum=1.0, maximum=60.0
+    )
+
+
+@dataclass(frozen=True)
+class FusionOptions(Parameters):
+    """Parameters of the node ``fusion`` itself."""
+
+    sync: str = parameter(
+        "internal",
+        "internal: align two raw streams here; external: take pairs with equal stamps",
+        choices=SYNC_CHOICES,
+    )
+    publish_tf: bool = parameter(False, "broadcast the frames too (needs tf2_msgs)")
+    engine: str = parameter(
+        "auto",
+        "form of the kernel; auto starts at once and goes over to the compiled form",
+        choices=("auto", "compiled", "interpreted"),
+    )
+    calibration: str = parameter(
+        "",
+        "file of 'dualfoot calibrate' for samples that imu_adapter has not corrected already "
+        "(empty: none)",
+    )
+
+
+@dataclass(frozen=True)
+class Reports(Parameters):
+    """How often a node reports on itself."""
+
+    period: float = parameter(1.0, "period of /diagnostics", unit="s", minimum=0.1, maximum=60.0)
+
+
+@dataclass(frozen=True)
+class AdapterOptions(Parameters):
+    """Parameters of the node ``imu_adapter`` itself."""
+
+    source: str = parameter(
+        "topic:///imu",
+        "where samples come from: topic:///NAME, file://PATH (bag or Xsens csv), or a device: "
+        "serial://, udp://, tcp://, ble://, see docs/sensors.md",
+    )
+    foot: str = parameter(
+        "auto",
+        "which foot this is: of a bag to play, of a calibration to use (auto: by namespace)",
+        choices=("auto", "left", "right"),
+    )
+    frame_id: str = parameter("", "frame id to publish (empty: as received)")
+    stamp: str = parameter(
+        "auto",
+        "stamp of a sample: header as it came, device the same as time of the device's clock "
+        "followed on the host's, arrival the time it came; auto: device for devices, else header",
+        choices=("auto", *POLICIES),
+    )
+    stamp_offset: float = parameter(
+        0.0, "added to every stamp", unit="s", minimum=-1.0e9, maximum=1.0e9
+    )
+    calibration: str = parameter(
+        "",
+        "file of 'dualfoot calibrate', in the axes of the source (empty: none); the foot is that "
+        "of the namespace",
+    )
+
+
+@dataclass(frozen=True)
+class Units(Parameters):
+    """Units of the source; what is published is SI."""
+
+    specific_force: str = parameter("m/s^2", "of the source", choices=("m/s^2", "g"))
+    angular_rate: str = parameter("rad/s", "of the source", choices=("rad/s", "deg/s"))
+
+
+@dataclass(frozen=True)
+class Covariance(Parameters):
+    """Noise to publish with every sample, where it is known."""
+
+    specific_force_std: float = parameter(
+        0.0, "0: as received", unit="m/s^2", minimum=0.0, maximum=10.0
+    )
+    angular_rate_std: float = parameter(
+        0.0, "0: as received", unit="rad/s", minimum=0.0, maximum=10.0
+    )
+
+
+@dataclass(frozen=True)
+class Play(Parameters):
+    """How a recording is played."""
+
+    rate: float = parameter(1.0, "speed, as a multiple of real time", minimum=0.01, maximum=1000.0)
+    loop: bool = parameter(False, "start again at the end")
+    delay: float = parameter(
+        0.0, "wait before the first sample", unit="s", minimum=0.0, maximum=3600.0
+    )
+    wait: float = parameter(
+        10.0,
+        "wait so long at most for a subscriber of each topic (0: do not wait)",
+        unit="s",
+        minimum=0.0,
+        maximum=3600.0,
+    )
+
+
+@dataclass(frozen=True)
+class ReplayOptions(Parameters):
+    """Parameters of the node ``replay`` itself."""
+
+    bag: str = parameter("", "the bag to play: a folder of rosbag2, or a single mcap file")
+    clock: bool = parameter(True, "publish /clock")
+    topic: str = parameter(
+        "data_raw",
+        "publish as raw samples, or as samples with equal stamps",
+        choices=("data_raw", "data_sync"),
+    )
+
+
+@dataclass(frozen=True)
+class BringupOptions(Parameters):
+    """Parameters of ``bringup``: which nodes it starts in its process."""
+
+    adapters: bool = parameter(True, "start left/imu_adapter and right/imu_adapter")
+    bag: str = parameter("", "play this bag with replay, in place of the adapters")
+    record: str = parameter("", "write what is received and published to this bag")
+
+
+GROUPS: dict[str, type[Parameters]] = {
+    "aligner": Sync,
+    "input": Input,
+    "frames": Frames,
+    "path": Path,
+    "reports": Reports,
+    "mounting": Mounting,
+    "units": Units,
+    "covariance": Covariance,
+    "checks": Checks,
+    "stamping": Stamping,
+    "clock": ClockModel,
+    "play": Play,
+}
+NODES: dict[str, tuple[type[Parameters], tuple[str, ...]]] = {
+    "fusion": (
+        FusionOptions,
+        ("aligner", "stamping", "clock", "input", "frames", "path", "reports"),
+    ),
+    "imu_adapter": (
+        AdapterOptions,
+        ("mounting", "units", "covariance", "checks", "clock", "play", "input", "reports"),
+    ),
+    "time_sync": (Parameters, ("aligner", "stamping", "clock", "input", "reports")),
+    "replay": (ReplayOptions, ("play", "reports")),
+    "bringup": (BringupOptions, ()),
+}
+
+
+def node_specs(node: str) -> Iterator[ParameterSpec]:
+    """Yield the parameters of a node by dotted name, without those of the tracker."""
+    own, groups = NODES[node]
+    yield from own.specs()
+    for group in groups:
+        yield from GROUPS[group].specs(f"{group}.")
+
+
+def node_parameter_names() -> set[str]:
+    """Return the names of the parameters of all nodes, without those of the tracker."""
+    return {spec.name for node in NODES for spec in node_specs(node)}

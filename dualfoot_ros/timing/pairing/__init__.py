@@ -1,0 +1,1 @@
+"""Two streams to pairs with equal stamps: streaming, and its batch twin."""

@@ -1,0 +1,69 @@
+"""Where the stamps of a grid lie among the samples of one foot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.samples.series import BoolArray, FloatArray, ImuSeries, IntArray
+from .pairing_config import Sync
+
+
+@dataclass(frozen=True)
+class Places:
+    """For each stamp of the grid the samples around it, and which rule gives its value.
+
+    Attributes
+    ----------
+    before, after : (N,) index of the last sample at or before, and of the one after it; where
+        ``exact``, ``before`` is the sample that is taken
+    weight : (N,) share of ``after`` in the value
+    exact : (N,) a sample is within the tolerance and taken as it is
+    between : (N,) interpolated, or the earlier one held
+    outside : (N,) before the first or after the last sample
+    """
+
+    before: IntArray
+    after: IntArray
+    weight: FloatArray
+    exact: BoolArray
+    between: BoolArray
+    outside: BoolArray
+
+    @classmethod
+    def of(cls, stamps: IntArray, grid: IntArray, config: Sync) -> Places:
+        """Place ``grid`` among increasing ``stamps``."""
+        before = np.searchsorted(stamps, grid, side="right") - 1
+        inside = (before >= 0) & (before + 1 < len(stamps))
+        low = np.maximum(before, 0)
+        high = np.minimum(before + 1, len(stamps) - 1)
+        on_low = np.abs(grid - stamps[low]) <= config.tolerance_ns
+        on_high = np.abs(stamps[high] - grid) <= config.tolerance_ns
+        exact = on_low | on_high
+        width = stamps[high] - stamps[low]
+        between = inside & ~exact & (width <= config.max_gap_ns)
+        since = np.zeros(len(grid)) if config.holds else grid - stamps[low]
+        weight = since / np.where(between, width, 1)
+        taken = np.where(on_high & ~on_low, high, low)
+        return cls(taken, high, weight, exact, between, ~inside & ~exact)
+
+    @property
+    def found(self) -> BoolArray:
+        """Where the foot has a value."""
+        return self.exact | self.between
+
+    def take(self, series: ImuSeries, grid: IntArray, good: BoolArray) -> ImuSeries:
+        """Return the series at the ``good`` stamps of the grid."""
+        field = series.magnetic_field
+        return ImuSeries(
+            grid[good],
+            self._values(series.specific_force, good),
+            self._values(series.angular_rate, good),
+            None if field is None else self._values(field, good),
+        )
+
+    def _values(self, column: FloatArray, good: BoolArray) -> FloatArray:
+        before, after = column[self.before[good]], column[self.after[good]]
+        line = before + (after - before) * self.weight[good][:, None]
+        return np.where(self.exact[good][:, None], before, line)

@@ -1,0 +1,71 @@
+"""The gate of one stream: lets samples in whose stamps increase and whose values are finite."""
+
+from __future__ import annotations
+
+import math
+
+from .pairing_config import Sync
+
+REFUSALS = ("not_finite", "duplicate", "out_of_order")
+COUNTERS = ("accepted", *REFUSALS, "gap")
+
+
+class Gate:
+    """Admit or refuse the samples of one foot, and count why.
+
+    ``counters`` holds ``accepted``, ``not_finite``, ``duplicate`` (a stamp within the tolerance
+    of the newest), ``out_of_order`` (an older stamp) and ``gap`` (admitted, but more than
+    ``max_gap`` after the one before).
+    """
+
+    def __init__(self, config: Sync) -> None:
+        self._gap_ns = config.max_gap_ns
+        self._tolerance_ns = config.tolerance_ns
+        self._restart_after = config.restart_after
+        self.counters = dict.fromkeys(COUNTERS, 0)
+        self.forget()
+
+    def forget(self) -> None:
+        """Take the next sample as the first; the counters stay."""
+        self._newest: int | None = None
+        self._previous = 0
+        self._backward = 0
+
+    @property
+    def restarted(self) -> bool:
+        """Whether the stream went on at an older time: too many samples refused in a row.
+
+        A bag that loops does that, a device that is switched on again, and a single stamp that
+        was far in the future.
+        """
+        return self._backward >= self._restart_after
+
+    def refusal(self, stamp_ns: int, finite: bool) -> str | None:
+        """Return None for a sample that is let in, else the name of the counter that refused."""
+        reason = self._judge(stamp_ns, finite)
+        self.counters[reason or "accepted"] += 1
+        if reason is None:
+            self._newest = stamp_ns
+        return reason
+
+    def _judge(self, stamp_ns: int, finite: bool) -> str | None:
+        if not finite:
+            return "not_finite"
+        if self._newest is None:
+            return None
+        step = stamp_ns - self._newest
+        if step > self._tolerance_ns:
+            self._backward = 0
+            self.counters["gap"] += step > self._gap_ns
+            return None
+        if step >= -self._tolerance_ns:
+            return "duplicate"
+        # An increasing run of old stamps is a stream that began anew; a late sample is alone.
+        self._backward = self._backward + 1 if stamp_ns > self._previous else 1
+        self._previous = stamp_ns
+        return "out_of_order"
+
+
+def all_finite(values: list[float]) -> bool:
+    """Tell whether every number is finite."""
+    return all(map(math.isfinite, values))

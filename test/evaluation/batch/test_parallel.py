@@ -1,0 +1,35 @@
+"""Many runs at once: results, refusals, defects."""
+
+import pytest
+
+from dualfoot_ros.core.errors import DualFootError
+from dualfoot_ros.evaluation.batch.parallel import Failure, run_each
+
+
+def halved(number: int) -> float:
+    if number < 0:
+        raise DualFootError(f"{number} is negative")
+    if number == 99:
+        raise OSError(2, "No such file or directory", "ninety-nine")
+    return number / 2 if number != 1000 else 1 / 0
+
+
+@pytest.mark.parametrize("jobs", (1, 2))
+def test_every_item_is_done_once_and_knows_its_place(jobs):
+    items = [4, 2, 8]
+    done = {d.index: d.result for d in run_each(halved, items, jobs)}
+    assert done == {0: 2.0, 1: 1.0, 2: 4.0}
+
+
+@pytest.mark.parametrize("jobs", (1, 2))
+def test_what_is_refused_is_a_sentence_and_the_others_go_on(jobs):
+    done = {d.index: d.result for d in run_each(halved, [4, -1, 99, 6], jobs)}
+    assert (done[0], done[3]) == (2.0, 3.0)
+    assert done[1] == Failure("-1 is negative")
+    assert done[2] == Failure("'ninety-nine': No such file or directory")
+
+
+@pytest.mark.parametrize("jobs", (1, 2))
+def test_a_defect_is_not_hidden(jobs):
+    with pytest.raises(ZeroDivisionError):
+        list(run_each(halved, [4, 1000], jobs))

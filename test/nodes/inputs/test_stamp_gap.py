@@ -1,0 +1,111 @@
+"""Two feet whose stamps are far apart: which one, by how much and what to do."""
+
+import pytest
+
+from dualfoot_ros.nodes.inputs import stamp_gap as module
+from dualfoot_ros.nodes.inputs.stamp_gap import Apart
+from dualfoot_ros.nodes.ros.diagnostics import ERROR, OK, OVER_S, WARN, Beginnings, Status
+from dualfoot_ros.timing import Aligner
+
+from ..samples import STANDING, STEP_NS, imu
+from ..test_fusion import FEET, Walker
+
+
+class Bench:
+    """Feet that deliver in real time, by a wall clock of our own."""
+
+    def __init__(self, monkeypatch):
+        self.aligner, self.now_s = Aligner(), 0.0
+        self.apart = Apart(self.aligner)
+        self.stamp_ns = dict.fromkeys(FEET, 10**12)
+        monkeypatch.setattr(module.time, "monotonic", lambda: self.now_s)
+
+    def run(self, seconds, feet=FEET):
+        """Let the feet deliver for that time; return the last report of one a second."""
+        status = Status()
+        for k in range(round(seconds * 1e9 / STEP_NS)):
+            self.now_s += 1e-9 * STEP_NS
+            for foot in feet:
+                self.stamp_ns[foot] += STEP_NS
+                self.apart.see(foot, self.stamp_ns[foot])
+                self.aligner.push(foot, self.stamp_ns[foot], STANDING)
+            if k % 100 == 99:
+                status = Status()
+                self.apart.describe(status)
+        return status
+
+
+@pytest.fixture
+def feet(monkeypatch):
+    return Bench(monkeypatch)
+
+
+@pytest.mark.parametrize("behind", FEET)
+def test_feet_that_never_pair_are_an_error_with_foot_difference_and_remedy(feet, behind):
+    feet.stamp_ns[behind] -= 162_500_000_000
+    status = feet.run(5.0)
+    assert feet.aligner.counters["pairs"] == 0 and status.level == ERROR
+    assert f"the {behind} foot are 162.5 s behind" in status.message
+    sign = 1.0 if behind == "right" else -1.0
+    assert f"add {sign * 162.5:.3f} s with stamping.right_offset" in status.message
+    for remedy in ("stamping.left and stamping.right to device", "dualfoot sync"):
+        assert remedy in status.message
+    assert "feet apart" in status.logged
+    found = status.values["right less left, newest stamps (s)"]
+    assert found == pytest.approx(-sign * 162.5, abs=0.02)
+
+
+def test_the_offset_that_is_named_brings_the_feet_together(feet):
+    feet.stamp_ns["right"] += 40_000_000_000
+    offset_s = float(feet.run(5.0).message.split("add ")[1].split(" s ")[0])
+    feet.aligner.reset()
+    feet.stamp_ns["right"] += round(1e9 * offset_s)
+    assert feet.run(5.0).level == OK and feet.aligner.counters["pairs"] > 300
+
+
+def test_feet_in_time_raise_no_finding(feet):
+    assert feet.run(5.0).level == OK
+
+
+def test_a_foot_that_falls_silent_is_not_said_to_be_behind(feet):
+    feet.run(5.0)
+    for _ in range(10):
+        assert "no pairs" not in feet.run(1.0, feet=("left",)).message
+
+
+def test_a_foot_that_is_now_and_then_too_late_is_a_warning_with_its_name(feet):
+    feet.run(3.0)
+    feet.run(1.2, feet=("left",))
+    status = feet.run(1.0)
+    assert status.level == WARN and "samples of the right foot come too late" in status.message
+    assert "aligner.max_delay is 1 s" in status.message
+
+
+def test_fusion_says_it_in_diagnostics_and_log(bench, capfd):
+    walker = Walker(bench)
+    numbers = iter(range(10**6))
+
+    def send():
+        stamp_ns = 10**12 + next(numbers) * STEP_NS
+        walker._out["left"].publish(imu(stamp_ns))
+        walker._out["right"].publish(imu(stamp_ns + 162_500_000_000))
+
+    walker.probe.create_timer(1e-9 * STEP_NS, send)
+    said = walker.report(lambda r: r.status[0].level == ERROR).status[0].message
+    assert "the stamps of the left foot are 162.5 s behind those of the right foot" in said
+    assert capfd.readouterr().err.count("162.5 s behind those of the right") == 1
+
+
+def test_fusion_does_not_blame_the_publisher_of_pairs_that_are_not_made(bench):
+    walker = Walker(bench, {"sync": "external", "input.silence": 0.2, "input.first": 0.4})
+    report = walker.report(lambda r: "no sample came for" in r.status[0].message)
+    assert "time_sync does, says in /diagnostics why" in report.status[0].message
+
+
+def test_a_finding_is_picked_once_until_it_has_stayed_away():
+    beginnings, found = Beginnings(), {"stuck": (WARN, "it is stuck")}
+    assert beginnings.among(found, 0.0) == ["it is stuck"]
+    assert beginnings.among(found, 1.0) == beginnings.among({}, 2.0) == []
+    assert beginnings.among(found, 0.9 * OVER_S) == []
+    assert beginnings.among({"stuck": (ERROR, "worse")}, 0.95 * OVER_S) == ["worse"]
+    assert beginnings.among(found, 3.0 * OVER_S) == ["it is stuck"]

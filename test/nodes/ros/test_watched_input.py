@@ -1,0 +1,160 @@
+import pytest
+import rclpy
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import Imu
+from std_msgs.msg import String
+
+from dualfoot_ros.nodes.ros import qos
+from dualfoot_ros.nodes.ros.diagnostics import ERROR, WARN, Status
+from dualfoot_ros.nodes.ros.watched_input import Input, Watch, silence, watched_publisher
+from dualfoot_ros.settings.nodes import Input as InputOptions
+
+from ..samples import imu
+
+QUICK = InputOptions(silence=0.3)
+
+
+def listening(bench, profile=None):
+    node = bench.plain("listener")
+    each = Input(node, Imu, "imu", lambda _: None, profile or qos.sensor(10))
+    return each, Watch(node, [each], QUICK)
+
+
+def said(each):
+    complaint = each.complaint(QUICK)
+    return complaint.message if complaint else ""
+
+
+def level(each):
+    complaint = each.complaint(QUICK)
+    return complaint.level if complaint else None
+
+
+def test_a_topic_without_publisher_is_named(bench):
+    each, watch = listening(bench)
+    bench.until(lambda: said(each))
+    assert each.complaint(QUICK) == (ERROR, "topic '/imu' has no publisher")
+    status = Status()
+    watch.describe(status)
+    assert (status.level, status.message) == (ERROR, "topic '/imu' has no publisher")
+
+
+@pytest.mark.parametrize(
+    ("begun", "silent_s", "expected"),
+    [
+        (False, 2.5, (WARN, "it is there but no sample yet")),
+        (False, 19.9, (WARN, "it is there but no sample yet")),
+        (False, 20.1, (ERROR, "it is there but no sample came for 20.1 s")),
+        (True, 2.5, (ERROR, "it is there but was silent for 2.5 s")),
+    ],
+)
+def test_only_what_has_not_begun_is_given_time(begun, silent_s, expected):
+    assert silence("it is there", begun, silent_s, InputOptions()) == expected
+
+
+def test_an_input_that_has_spoken_is_an_error_as_soon_as_it_is_silent(bench):
+    each, watch = listening(bench)
+    publisher = bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
+    bench.until(lambda: "1 publisher(s) but no sample yet" in said(each), "a publisher")
+    assert level(each) == WARN
+    status = Status()
+    watch.describe(status)
+    assert status.level == WARN and "no sample yet" in status.message
+    publisher.publish(imu(1))
+    bench.until(lambda: each.received == 1)
+    bench.until(lambda: "1 publisher(s) but was silent for" in said(each), "silence")
+    assert level(each) == ERROR
+
+
+def test_a_first_sample_is_waited_for_from_when_its_publisher_is_there(bench):
+    each, _ = listening(bench)
+    each.last_s -= 100.0
+    each._free_s -= 100.0
+    bench.until(lambda: "no publisher" in said(each))
+    bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
+    bench.until(lambda: "publisher(s)" in said(each), "a publisher")
+    assert level(each) == WARN
+    each._free_s -= 100.0
+    assert level(each) == ERROR and "no sample came for 100." in said(each)
+
+
+RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+
+
+def test_a_publisher_whose_qos_does_not_fit_is_said_with_what_it_lacks(bench):
+    each, _ = listening(bench, RELIABLE)
+    bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
+    bench.until(lambda: "QoS does not fit" in said(each), "incompatible QoS")
+    assert "(best effort publisher and reliable subscription)" in said(each)
+    assert level(each) == ERROR
+
+
+def test_a_publisher_that_fits_is_not_blamed_for_the_one_before_it(bench):
+    each, _ = listening(bench, RELIABLE)
+    node = bench.plain()
+    bad = node.create_publisher(Imu, "imu", qos.sensor(10))
+    bench.until(lambda: "QoS does not fit" in said(each), "incompatible QoS")
+    node.create_publisher(Imu, "imu", RELIABLE)  # the one that was killed may linger
+    bench.until(lambda: "2 publisher(s) but no sample yet" in said(each), "a publisher that fits")
+    assert level(each) == WARN
+    node.destroy_publisher(bad)
+    bench.until(lambda: "1 publisher(s) but no sample yet" in said(each), "the bad one to go")
+    assert level(each) == WARN
+
+
+def test_a_topic_of_another_type_is_said_as_long_as_nobody_publishes_the_right_one(bench):
+    each, _ = listening(bench)
+    other = rclpy.Context()  # one process with one context cannot have a topic of two types
+    rclpy.init(args=[], context=other)
+    try:
+        node = rclpy.create_node("other", context=other)
+        node.create_publisher(String, "imu", 10)
+        bench.until(lambda: "std_msgs/msg/String" in said(each), "another type")
+        assert "expected is sensor_msgs/msg/Imu" in said(each)
+        bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
+        bench.until(lambda: "2 publisher(s) but no sample yet" in said(each), "the right type")
+        node.destroy_node()
+    finally:
+        rclpy.try_shutdown(context=other)
+
+
+def test_data_ends_the_complaint(bench):
+    each, _ = listening(bench)
+    publisher = bench.plain().create_publisher(Imu, "imu", qos.sensor(10))
+    bench.until(publisher.get_subscription_count)
+    bench.until(lambda: said(each))
+    publisher.publish(imu(1))
+    bench.until(lambda: each.received == 1)
+    assert each.complaint(QUICK) is None
+
+
+def test_samples_that_a_full_queue_drops_are_counted(bench):
+    each, _ = listening(bench, qos.sensor(5))
+    publisher = bench.plain().create_publisher(Imu, "imu", qos.sensor(1000))
+    bench.until(publisher.get_subscription_count)
+    publisher.publish(imu(0))
+    bench.until(lambda: each.received == 1)
+    for k in range(100):
+        publisher.publish(imu(k + 1))
+    bench.until(lambda: each.received == 6)
+    publisher.publish(imu(200))
+    bench.until(lambda: each.received == 7)
+    assert each.lost == 95
+
+
+def test_a_subscriber_that_asks_for_more_than_is_offered_is_warned_about(bench, program):
+    arguments = ["-p", "source:=topic:///sensor", "-r", "__ns:=/left"]
+    adapter = program("imu_adapter", "--ros-args", *arguments)
+    bench.plain().create_subscription(Imu, "/left/imu/data_raw", lambda _: None, RELIABLE)
+    said = "a subscriber of '/left/imu/data_raw' asks for a QoS that is not offered (RELIABILITY)"
+    bench.until(lambda: said in adapter.output, "the warning")
+
+
+def test_a_publisher_without_mismatch_says_nothing(bench, capfd):
+    node = bench.plain("talker")
+    publisher = watched_publisher(node, Imu, "imu", qos.sensor(10))
+    each, _ = listening(bench)
+    bench.until(publisher.get_subscription_count)
+    publisher.publish(imu(1))
+    bench.until(lambda: each.received == 1)
+    assert "QoS" not in capfd.readouterr().err

@@ -1,0 +1,67 @@
+"""The presets hold the numbers that stand in the papers, converted here by hand."""
+
+import math
+
+import pytest
+
+from dualfoot_ros.core.constraints.step_length import step_length
+from dualfoot_ros.settings.presets import load_config
+
+PAPERS = ("liu2023", "ma2023_vdc", "ma2023_svc", "chen2024", "chen2022")
+DEG_PER_HOUR = math.radians(1.0) / 3600.0
+
+
+@pytest.mark.parametrize("name", PAPERS)
+def test_no_paper_has_the_pivot_or_the_longer_stand(name):
+    zupt = load_config(name).zupt
+    assert (zupt.lever_arm, zupt.rate_std) == (0.0, 0.0)
+    assert zupt.still_after >= 1e6
+
+
+@pytest.mark.parametrize("name", ("ma2023_vdc", "ma2023_svc"))
+def test_ma_and_sarkka_have_no_biases_a_flat_floor_and_the_heading_of_the_first_stride(name):
+    config = load_config(name)
+    assert (config.noise.gyro_bias, config.noise.accelerometer_bias) == (0.0, 0.0)
+    assert (config.initial.gyro_bias, config.initial.accelerometer_bias) == (0.0, 0.0)
+    assert config.aids.flat_floor
+    # R = diag(0.01 I, 0.0001 I), variances
+    assert config.aids.static_std**2 == pytest.approx(0.01)
+    assert config.zupt.std**2 == pytest.approx(0.0001)
+    assert (config.heading.from_stance, config.heading.to_stance) == (0, 1)
+
+
+def test_varying_distance_has_sigma_five_samples_at_60_hz():
+    config = load_config("ma2023_vdc")
+    assert config.method == "varying_distance"
+    assert config.constraint.sigma * 60.0 == pytest.approx(5.0, abs=0.01)
+    assert config.constraint.minimum == 0.2
+
+
+def test_spacing_vector_is_the_hard_projection_of_both_components():
+    config = load_config("ma2023_svc")
+    svc = config.constraint
+    assert config.method == "spacing_vector"
+    assert (svc.spacing, svc.spacing_std, svc.variant) == (0.2, 0.0, "vector")
+
+
+def test_chen_liu_guo_have_the_bound_of_their_subject_and_the_sensors_of_table_2():
+    config = load_config("chen2024")
+    assert config.method == "step_length" and config.aids.barometer
+    assert config.constraint.threshold_m == 1.2
+    assert step_length(config.constraint.body_height) == pytest.approx(1.207, abs=1e-3)
+    assert config.noise.gyro == pytest.approx(math.radians(5e-3), rel=1e-3)
+    assert config.noise.accelerometer == pytest.approx(60e-6 * 9.80665, rel=1e-3)
+    assert config.initial.gyro_bias == pytest.approx(3.0 * DEG_PER_HOUR, rel=1e-3)
+    drive = config.initial.gyro_bias * math.sqrt(2.0 / config.noise.bias_time)
+    assert config.noise.gyro_bias == pytest.approx(drive, rel=1e-3)
+
+
+def test_chen_et_al_2022_have_positions_and_velocities_as_the_only_states():
+    config = load_config("chen2022")
+    assert config.method == "rigid_pair"
+    right, front, up = 0.01, 0.01, 0.0
+    assert config.constraint.lever_arm == (front, -right, up)
+    noise, start = config.noise, config.initial
+    assert noise.accelerometer > 0.0
+    assert (noise.gyro, noise.gyro_bias, noise.accelerometer_bias) == (0.0, 0.0, 0.0)
+    assert (start.tilt, start.yaw, start.gyro_bias, start.accelerometer_bias) == (0.0,) * 4

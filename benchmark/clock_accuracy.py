@@ -27,7 +27,8 @@ from rich.console import Console
 from rich.table import Table
 
 from dualfoot_ros.core import DualFootTracker, ImuSeries, TrackerConfig
-from dualfoot_ros.core.results.trajectory import FEET, Trajectory
+from dualfoot_ros.core.results.events import FEET
+from dualfoot_ros.core.results.trajectory import Trajectory
 from dualfoot_ros.simulation import ClockConfig, WalkConfig, simulate
 from dualfoot_ros.simulation.arrivals import BleLink, arrivals
 from dualfoot_ros.timing import Aligner, Counter, DeviceClock, Unwrapper

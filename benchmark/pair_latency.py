@@ -15,7 +15,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from dualfoot_ros.core.results.trajectory import FEET
+from dualfoot_ros.core.results.events import FEET
 from dualfoot_ros.core.samples.series import IntArray
 from dualfoot_ros.simulation.arrivals import BleLink, arrivals
 from dualfoot_ros.timing import Aligner, Sync

@@ -1,25 +1,30 @@
 """The layers of the package, by walking its imports: data only flows downwards."""
 
 import ast
+import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parents[1] / "dualfoot_ros"
 MODULES = sorted(PACKAGE.rglob("*.py"))
 TOP = "modules at the top of the package"
-BELOW = {
-    "core": set(),
-    "timing": {"core"},
-    "drivers": {"core", "timing"},
-    "settings": {"core", "timing", "drivers"},
-    "recording": {"core", "timing", "settings"},
-    "simulation": {"core", "timing", "settings"},
-    "inspection": {"core", "timing", "settings", "recording"},
-    "evaluation": {"core", "timing", "settings", "recording", "simulation", "inspection"},
-    "calibration": {"core", "timing", "settings", "recording", "inspection", "evaluation"},
-    TOP: set(),
-}
-ALL = {"nodes", "cli"}
+TABLE = PACKAGE.parent / "docs" / "architecture.md"
+NODES = "nodes"
+
+
+def layers() -> dict[str, set[str]]:
+    """Return the rooms and what each may import, from the table in docs/architecture.md."""
+    rows = re.findall(r"^\| `(\w+)/` \|.*\| (.*) \|$", TABLE.read_text(encoding="utf-8"), re.M)
+    rooms = {room for room, _ in rows}
+    found = {}
+    for room, allowed in rows:
+        named = set(re.findall(r"`(\w+)`", allowed))
+        found[room] = rooms - named if allowed.startswith("all") else named
+    return found
+
+
+BELOW = layers()
 ROS = {
     "action_msgs",
     "ament_index_python",
@@ -110,8 +115,63 @@ def calls(path: Path) -> set[str]:
     return {function.id for function in found if isinstance(function, ast.Name)}
 
 
+def module_name(path: Path) -> str:
+    """Return the dotted name of the module at ``path``."""
+    parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def imported_modules(path: Path) -> set[str]:
+    """Return the modules that ``path`` imports from, looking through faces."""
+    modules = {module_name(p): p for p in MODULES}
+
+    def home(name: str) -> str | None:
+        """Return the module that defines ``name``, through any number of faces."""
+        if name in modules:
+            return name
+        base, _, item = name.rpartition(".")
+        if base not in modules:
+            return None
+        if modules[base].name == "__init__.py":
+            for onward in imported(modules[base]):
+                if onward.rpartition(".")[2] == item and onward != name:
+                    return home(onward)
+        return base
+
+    found = {home(name) for name in imported(path)}
+    faces = {name for name, p in modules.items() if p.name == "__init__.py"}
+    return {name for name in found if name} - {module_name(path)} - faces
+
+
+def circles(arrows: dict[str, set[str]]) -> list[list[str]]:
+    """Return the groups of modules that import each other (Tarjan's components)."""
+    index: dict[str, int] = {}
+    low: dict[str, int] = {}
+    stack: list[str] = []
+    groups: list[list[str]] = []
+
+    def visit(name: str) -> None:
+        index[name] = low[name] = len(index)
+        stack.append(name)
+        for other in arrows[name]:
+            if other not in index:
+                visit(other)
+                low[name] = min(low[name], low[other])
+            elif other in stack:
+                low[name] = min(low[name], index[other])
+        if low[name] == index[name]:
+            at = stack.index(name)
+            groups.append(stack[at:])
+            del stack[at:]
+
+    for name in arrows:
+        if name not in index:
+            visit(name)
+    return [sorted(group) for group in groups if len(group) > 1]
+
+
 def test_every_folder_of_the_package_has_its_place_among_the_layers():
-    assert {layer(path) for path in MODULES} <= BELOW.keys() | ALL
+    assert {layer(path) for path in MODULES} - {TOP} == set(BELOW)
 
 
 def test_a_module_imports_only_from_the_layers_below():
@@ -119,8 +179,38 @@ def test_a_module_imports_only_from_the_layers_below():
         here, there = layer(path), target(name)
         return there not in (None, here) and there not in BELOW[here]
 
-    lower = [p for p in MODULES if layer(p) not in ALL and p.name != "__main__.py"]
-    assert breaches(lower, forbidden) == []
+    rooms = [p for p in MODULES if layer(p) != TOP]
+    assert breaches(rooms, forbidden) == []
+
+
+def test_another_room_is_used_through_its_face():
+    faces = {module_name(p) for p in MODULES if p.name == "__init__.py"}
+    modules = {module_name(p) for p in MODULES} - faces
+
+    def forbidden(path: Path, name: str) -> bool:
+        return target(name) not in (None, layer(path), TOP) and name in modules
+
+    rooms = [p for p in MODULES if layer(p) != TOP]
+    assert breaches(rooms, forbidden) == []
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    arrows = {module_name(p): imported_modules(p) for p in MODULES if p.name != "__init__.py"}
+    assert circles(arrows) == []
+
+
+def test_no_file_name_stands_twice_but_a_verb_and_its_library_module():
+    counts = Counter(p.name for p in MODULES if not p.name.startswith("__"))
+    twice = {name for name, count in counts.items() if count > 1}
+    places = {name: [p for p in MODULES if p.name == name] for name in twice}
+    verbs = {name for name, paths in places.items() if any(layer(p) == "cli" for p in paths)}
+    assert twice - verbs == set()
+    assert {name: len(places[name]) for name in verbs} == dict.fromkeys(verbs, 2)
+
+
+def test_no_folder_lists_more_modules_than_one_sees_at_a_glance():
+    counts = Counter(p.parent for p in MODULES if p.name != "__init__.py")
+    assert {str(folder) for folder, count in counts.items() if count > 16} == set()
 
 
 def test_only_the_nodes_import_ros():
@@ -157,7 +247,7 @@ def test_nothing_but_the_command_line_prints():
 def test_the_walk_sees_relative_and_absolute_imports_at_any_depth():
     seen = set(imported(PACKAGE / "recording" / "write.py"))
     assert {
-        "dualfoot_ros.core.samples.series",
+        "dualfoot_ros.core.FloatArray",
         "dualfoot_ros.recording.cdr",
         "rosbags.rosbag2",
     } <= seen

@@ -1,16 +1,42 @@
 """Calibration of sensors and gait from recordings made for it, and its files."""
 
-from .errors import CalibrationError
+from ..core import CalibrationError
+from .accelerometer import MODELS, AccelerometerFit, fit_accelerometer, rms, why_not
+from .cross_validation import CrossValidation, cross_validate
 from .feet import calibrated, for_feet, sensor_calibration
-from .file import Calibration
+from .file import ANY, Calibration
+from .gyro import GyroFit, fit_gyro
+from .parameter_text import parameter_text
 from .sensor import SensorCalibration, Triad
+from .soundness import doubts
+from .sources import load_sources
+from .spacing import SpacingFit, fit_spacing
+from .static import Segment, segments_of, still_spans
 
 __all__ = [
+    "ANY",
+    "MODELS",
+    "AccelerometerFit",
     "Calibration",
     "CalibrationError",
+    "CrossValidation",
+    "GyroFit",
+    "Segment",
     "SensorCalibration",
+    "SpacingFit",
     "Triad",
     "calibrated",
+    "cross_validate",
+    "doubts",
+    "fit_accelerometer",
+    "fit_gyro",
+    "fit_spacing",
     "for_feet",
+    "load_sources",
+    "parameter_text",
+    "rms",
+    "segments_of",
     "sensor_calibration",
+    "still_spans",
+    "why_not",
 ]

@@ -21,8 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.samples.series import FloatArray
-from .errors import CalibrationError
+from ..core import CalibrationError, FloatArray
 from .sensor import Triad
 from .static import Segment, attitudes
 

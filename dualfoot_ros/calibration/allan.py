@@ -17,8 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.samples.series import FloatArray
-from .errors import CalibrationError
+from ..core import CalibrationError, FloatArray
 
 PER_OCTAVE = 4
 SHARE = 1.0 / 9.0  # of the record, the longest time told; its deviation is known to 25 %

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ..core.results.trajectory import FEET
+from ..core import FEET, CalibrationError
 from ..recording import Recording
-from .errors import CalibrationError
 from .file import ANY, Calibration
 from .sensor import SensorCalibration
 

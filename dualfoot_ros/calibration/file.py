@@ -26,10 +26,8 @@ from typing import Any
 
 import numpy as np
 
-from ..core.results.trajectory import FEET
-from ..core.samples.series import FloatArray
-from ..recording.atomic import write_text
-from .errors import CalibrationError
+from ..core import FEET, CalibrationError, FloatArray
+from ..recording import write_text
 from .sensor import TRIADS, SensorCalibration, Triad
 
 FORMAT = "dualfoot_calibration"

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.samples.series import FloatArray, ImuSeries
+from ..core import CalibrationError, FloatArray, ImuSeries
 from .allan import FLOOR, AllanCurve, Slopes, allan_curve, slopes_of
-from .errors import CalibrationError
 from .sensor import TRIADS, Triad
 from .soundness import check_measured, usable_samples
 from .static import Static, no_standstill, still_spans

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ..core.config import all_specs
-from ..core.parameters import check
-from ..settings.files import parameter_file
+from ..core import all_specs, check
+from ..settings import parameter_file
 
 
 def parameter_text(values: Mapping[str, float], remarks: Sequence[str]) -> str:

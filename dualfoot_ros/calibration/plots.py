@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.samples.series import FloatArray
-from ..evaluation.reports.plots.style import FOOT, GREEN, MARKER, PINK, TRUTH, new_figure, save
+from ..core import FloatArray
+from ..evaluation.reports.plots import FOOT, GREEN, MARKER, PINK, TRUTH, new_figure, save
 from .accelerometer import AccelerometerFit, rms
 from .allan import FLOOR, AllanCurve, Slopes
 from .gyro import UNITS, GyroFit

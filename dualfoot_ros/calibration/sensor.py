@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.samples.series import FloatArray, ImuSeries
+from ..core import FloatArray, ImuSeries
 
 TRIADS = ("accelerometer", "gyro")
 

@@ -6,13 +6,19 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from ..core.samples.series import ImuSeries
-from ..inspection.findings import GRAVITY, GRAVITY_ERROR, STUCK_SHARE
-from ..inspection.quality import Quality, quality_of
-from ..inspection.stuck_values import TRIADS as WORDS
-from ..inspection.stuck_values import Held, Stuck, held_at_rest
+from ..core import CalibrationError, ImuSeries
+from ..inspection import (
+    GRAVITY,
+    GRAVITY_ERROR,
+    STUCK_SHARE,
+    Held,
+    Quality,
+    Stuck,
+    held_at_rest,
+    quality_of,
+)
+from ..inspection import TRIADS as WORDS
 from ..timing import clean
-from .errors import CalibrationError
 from .sensor import TRIADS
 
 RATES = (5.0, 10_000.0)  # Hz

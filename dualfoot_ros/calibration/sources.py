@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..core.results.trajectory import FEET
-from ..core.samples.series import ImuSeries
+from ..core import FEET, CalibrationError, ImuSeries
 from ..recording import Topics, read_bag
+from ..recording.importers import read_sensor
 from ..recording.importers.axes import IDENTITY
-from ..recording.importers.xsens_dot import read_sensor
-from .errors import CalibrationError
 from .file import ANY
 
 EXPORT = ".csv"

@@ -21,13 +21,15 @@ from typing import Any
 
 import numpy as np
 
-from ..core.config import TrackerConfig, method_parameters
-from ..core.constraints import METHODS
-from ..core.results.trajectory import Trajectory
-from ..core.samples.series import FloatArray
-from ..inspection.lateral_spacing import SideBySide, side_by_side, straight
-from ..inspection.passings import SHARE, Passing, passings_of
-from .errors import CalibrationError
+from ..core import (
+    METHODS,
+    CalibrationError,
+    FloatArray,
+    TrackerConfig,
+    Trajectory,
+    method_parameters,
+)
+from ..inspection import SHARE, Passing, SideBySide, passings_of, side_by_side, straight
 
 LEAST_PASSINGS = 8
 LEAST_STEPS = 3

@@ -8,12 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.parameters import Parameters, parameter
-from ..core.samples.series import FloatArray, ImuSeries
-from ..inspection.findings import GRAVITY, GRAVITY_ERROR
-from ..inspection.quality import quality_of
+from ..core import CalibrationError, FloatArray, ImuSeries, Parameters, parameter
+from ..inspection import GRAVITY, GRAVITY_ERROR, quality_of
 from ..timing import clean
-from .errors import CalibrationError
 from .soundness import check_measured, not_finite, usable_samples
 
 NEAR = np.cos(np.radians(15.0))  # attitudes closer than this are one

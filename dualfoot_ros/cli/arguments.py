@@ -1,13 +1,19 @@
-"""The arguments by which every verb takes a bag, and the reading of it."""
+"""Arguments that several verbs share, and what is done with them."""
 
 from __future__ import annotations
 
 import argparse
+import sys
 from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
-from ..inspection.findings import require_usable
+from ..core import ConfigError
+from ..inspection import require_usable
 from ..recording import Recording, Topics, read_bag
 from .progress import progress
+
+if TYPE_CHECKING:
+    from ..evaluation.batch import Failure
 
 
 def add_topic_arguments(parser: argparse.ArgumentParser) -> None:
@@ -49,3 +55,39 @@ def load_bag(path: str, args: argparse.Namespace) -> Recording:
     )
     with progress(f"reading {path}") as update:
         return read_bag(path, topics=topics, progress=update)
+
+
+def setting(text: str) -> tuple[str, Any]:
+    """Return name and value of ``KEY=VALUE``, the value as YAML reads it.
+
+    Raises
+    ------
+    ConfigError
+        When it is not of that form.
+    """
+    import yaml
+
+    key, equals, value = text.partition("=")
+    if not (key and equals and value):
+        raise ConfigError(f"--set {text!r} is not understood; allowed is KEY=VALUE")
+    try:
+        loaded = yaml.safe_load(value)
+        return key, float(loaded) if isinstance(loaded, str) else loaded  # YAML 1.1: 1e-3 is text
+    except (ValueError, yaml.YAMLError):
+        return key, value
+
+
+def check_numbers(args: argparse.Namespace, **most: int) -> None:
+    """Refuse numbers (``jobs`` and those named) below 1 or above what is allowed."""
+    from ..evaluation import EvaluationError
+
+    for name, limit in {"jobs": 256, **most}.items():
+        value = getattr(args, name)
+        if value is not None and not 1 <= value <= limit:
+            raise EvaluationError(f"--{name} is {value}; allowed is 1 to {limit}")
+
+
+def complain(failed: dict[str, Failure], verb: str = "compare") -> None:
+    """Name on standard error what failed, and why."""
+    for name, failure in failed.items():
+        print(f"dualfoot {verb}: error: {name}: {failure.sentence}", file=sys.stderr)

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .arguments import add_usable_arguments
+from .arguments import add_usable_arguments, check_numbers, complain, setting
 from .progress import progress
-from .settings import setting
 
 if TYPE_CHECKING:
-    from ..evaluation.batch.cases import Case
-    from ..evaluation.batch.comparison import Entry, Job
-    from ..evaluation.batch.parallel import Failure
+    from ..evaluation.batch import Case, Entry, Failure, Job
 
 HELP = "run every method on one or many bags and put their figures side by side"
 EXAMPLES = """\
@@ -92,9 +88,8 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Compare, write, print; return the exit code."""
-    from ..evaluation.batch.parallel import default_jobs
-    from ..evaluation.reports.comparison_rows import flat
-    from ..evaluation.reports.output import check_directory
+    from ..evaluation.batch import default_jobs
+    from ..evaluation.reports import check_directory, flat
 
     check_numbers(args, repeat=20)
     if args.output is not None:
@@ -110,18 +105,8 @@ def run(args: argparse.Namespace) -> int:
     return 1 if failed else 0
 
 
-def check_numbers(args: argparse.Namespace, **most: int) -> None:
-    """Refuse numbers (``jobs`` and those named) below 1 or above what is allowed."""
-    from ..evaluation import EvaluationError
-
-    for name, limit in {"jobs": 256, **most}.items():
-        value = getattr(args, name)
-        if value is not None and not 1 <= value <= limit:
-            raise EvaluationError(f"--{name} is {value}; allowed is 1 to {limit}")
-
-
 def _cases(args: argparse.Namespace) -> list[Case]:
-    from ..evaluation.batch.cases import Sweep, case_names, make_cases
+    from ..evaluation.batch import Sweep, case_names, make_cases
 
     overrides = dict(setting(text) for text in args.set)
     sweeps = [Sweep.parse(text) for text in args.sweep]
@@ -130,7 +115,7 @@ def _cases(args: argparse.Namespace) -> list[Case]:
 
 def _jobs(args: argparse.Namespace, cases: Sequence[Case]) -> list[Job]:
     from ..evaluation import Align, Options
-    from ..evaluation.batch.comparison import Job
+    from ..evaluation.batch import Job
 
     bags = list(dict.fromkeys(str(Path(bag)) for bag in args.bag))
     options = Options(Align(args.align))
@@ -140,8 +125,7 @@ def _jobs(args: argparse.Namespace, cases: Sequence[Case]) -> list[Job]:
 
 def _run(jobs: Sequence[Job], processes: int) -> tuple[list[Entry], dict[str, Failure]]:
     """Return what came of the jobs, in their order, and what failed by bag and case."""
-    from ..evaluation.batch.comparison import compare_one
-    from ..evaluation.batch.parallel import Failure, run_each
+    from ..evaluation.batch import Failure, compare_one, run_each
 
     found: dict[int, Entry] = {}
     failed: dict[int, Failure] = {}
@@ -173,12 +157,6 @@ def _named(jobs: Sequence[Job], failed: dict[int, Failure]) -> dict[str, Failure
     return named
 
 
-def complain(failed: dict[str, Failure], verb: str = "compare") -> None:
-    """Name on standard error what failed, and why."""
-    for name, failure in failed.items():
-        print(f"dualfoot {verb}: error: {name}: {failure.sentence}", file=sys.stderr)
-
-
 def _document(found: Sequence[Entry], failed: dict[str, Failure]) -> dict[str, Any]:
     return {
         "runs": [entry.to_dict() for entry in found],
@@ -192,8 +170,7 @@ def _write(
     rows: list[dict[str, Any]],
     failed: dict[str, Failure],
 ) -> list[Path]:
-    from ..evaluation.reports.comparison_rows import csv_text
-    from ..evaluation.reports.output import staged
+    from ..evaluation.reports import csv_text, staged
 
     with staged(args.output) as folder:
         paths = [folder / "compare.json", folder / "compare.csv"]
@@ -206,7 +183,7 @@ def _write(
 
 
 def _draw(found: Sequence[Entry], rows: list[dict[str, Any]], folder: Path) -> list[Path]:
-    from ..evaluation.reports.plots.methods import draw_compared, draw_sweep
+    from ..evaluation.reports.plots import draw_compared, draw_sweep
 
     paths = []
     bags = list(dict.fromkeys(entry.bag for entry in found))
@@ -234,13 +211,13 @@ def _print(
         print(json.dumps({**_document(found, failed), "files": files}, allow_nan=False))
         return
     if args.csv:
-        from ..evaluation.reports.comparison_rows import csv_text
+        from ..evaluation.reports import csv_text
 
         print(csv_text(rows), end="")
         return
     from rich.console import Console
 
-    from ..evaluation.reports.comparison_tables import tables
+    from ..evaluation.reports import tables
 
     console = Console(highlight=False)
     if not console.is_terminal:

@@ -9,14 +9,12 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .compare import check_numbers, complain
+from .arguments import check_numbers, complain, setting
 from .progress import progress
-from .settings import setting
 
 if TYPE_CHECKING:
     from ..core import TrackerConfig
-    from ..evaluation.batch.monte_carlo import Score, WalkJob, WalkScores
-    from ..evaluation.batch.parallel import Failure
+    from ..evaluation.batch import Failure, Score, WalkJob, WalkScores
 
 HELP = "compare the covariance with the errors over many simulated walks (NEES, NIS)"
 EXAMPLES = """\
@@ -61,10 +59,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Simulate, track, score, print; return the exit code."""
-    from ..evaluation.batch.monte_carlo import summarise
-    from ..evaluation.batch.parallel import default_jobs
-    from ..evaluation.reports.output import check_directory
-    from ..settings.presets import load_config
+    from ..evaluation.batch import default_jobs, summarise
+    from ..evaluation.reports import check_directory
+    from ..settings import load_config
 
     check_numbers(args, walks=10000)
     if args.output is not None:
@@ -84,7 +81,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _jobs(args: argparse.Namespace, config: TrackerConfig) -> list[WalkJob]:
     from ..evaluation import EvaluationError
-    from ..evaluation.batch.monte_carlo import WalkJob
+    from ..evaluation.batch import WalkJob
     from ..simulation import WalkConfig, grade
 
     if args.seed < 0:
@@ -96,8 +93,7 @@ def _jobs(args: argparse.Namespace, config: TrackerConfig) -> list[WalkJob]:
 
 
 def _run(jobs: Sequence[WalkJob], processes: int) -> tuple[list[WalkScores], dict[str, Failure]]:
-    from ..evaluation.batch.monte_carlo import score_walk
-    from ..evaluation.batch.parallel import Failure, run_each
+    from ..evaluation.batch import Failure, run_each, score_walk
 
     found: dict[int, WalkScores] = {}
     failed: dict[str, Failure] = {}
@@ -117,7 +113,7 @@ def _report(
     scores: Sequence[Score],
     failed: dict[str, Failure],
 ) -> None:
-    from ..evaluation.plain import plain
+    from ..evaluation import plain
 
     walks = {
         "route": args.route,
@@ -152,8 +148,8 @@ def _report(
 def _write(
     folder: Path, document: dict[str, Any], scores: Sequence[Score], title: str
 ) -> list[Path]:
-    from ..evaluation.reports.output import staged
-    from ..evaluation.reports.plots.nees_curves import draw_consistency
+    from ..evaluation.reports import staged
+    from ..evaluation.reports.plots import draw_consistency
 
     with staged(folder) as scratch:
         figures = scratch / "consistency.json"
@@ -166,7 +162,7 @@ def _print(scores: Sequence[Score], title: str) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from ..evaluation.reports.walk_table import number
+    from ..evaluation.reports import number
 
     table = Table(title=title, title_justify="left")
     table.add_column("quantity")

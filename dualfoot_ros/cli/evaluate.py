@@ -8,8 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .arguments import add_usable_arguments, load_usable
-from .settings import setting
+from .arguments import add_usable_arguments, load_usable, setting
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -95,7 +94,7 @@ def run(args: argparse.Namespace) -> int:
     """Evaluate, write, print; return the exit code."""
     from ..calibration import calibrated, for_feet
     from ..evaluation import evaluate, track, truth_of
-    from ..evaluation.reports.output import check_directory
+    from ..evaluation.reports import check_directory
 
     if args.output is not None:
         check_directory(args.output)
@@ -126,7 +125,7 @@ def _options(args: argparse.Namespace) -> Any:
 
 
 def _config(args: argparse.Namespace) -> TrackerConfig:
-    from ..settings.presets import load_config
+    from ..settings import load_config
 
     overrides = dict(setting(text) for text in args.set)
     if args.method is not None:
@@ -145,8 +144,7 @@ def _objections(
 ) -> Iterator[str]:
     """Yield what tracks with nothing between the feet show to be wrong."""
     from ..evaluation import track
-    from ..inspection.exchanged_feet import walk_findings
-    from ..inspection.stance_statistics import free_config
+    from ..inspection import free_config, walk_findings
 
     if config.method == "rigid_pair":  # both sensors are on one shoe
         return
@@ -157,8 +155,7 @@ def _objections(
 
 
 def _write(args: argparse.Namespace, found: Evaluation, metrics: dict[str, Any]) -> list[Path]:
-    from ..evaluation.reports.output import staged, write_metrics
-    from ..evaluation.reports.tum import write_tracks
+    from ..evaluation.reports import staged, write_metrics, write_tracks
 
     with staged(args.output) as folder:
         paths = [write_metrics(folder, metrics), *write_tracks(folder, found)]
@@ -175,7 +172,7 @@ def _print(
 ) -> None:
     from rich.console import Console
 
-    from ..evaluation.reports.walk_table import walk_table
+    from ..evaluation.reports import walk_table
 
     if args.json:
         print(json.dumps(metrics, allow_nan=False))

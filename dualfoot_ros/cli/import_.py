@@ -7,19 +7,12 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+from ..core import FEET, FORCE_UNITS, RATE_UNITS, PressureSeries, RecordingError
 from ..core.aids import WORN
-from ..core.results.trajectory import FEET
-from ..core.samples.series import PressureSeries
-from ..core.units import FORCE_UNITS, RATE_UNITS
-from ..inspection import findings as checks
-from ..recording import Recording, write_bag
-from ..recording.atomic import check_target
-from ..recording.errors import RecordingError
-from ..recording.importers import FORMATS, ImportOptions, import_recording
+from ..inspection import findings_of
+from ..recording import METADATA, STORAGES, Recording, check_target, write_bag
+from ..recording.importers import FORMATS, ImportOptions, import_recording, read_pressure
 from ..recording.importers.axes import IDENTITY
-from ..recording.importers.pressure_csv import read_pressure
-from ..recording.open_bag import METADATA
-from ..recording.write import STORAGES
 from .progress import progress
 
 HELP = "turn sensor exports and data sets into a bag"
@@ -165,5 +158,5 @@ def _report(output: Path, recording: Recording) -> None:
     if reference is not None:
         print(f"reference: {reference.summary()}")
     print(f"wrote {output}")
-    for finding in checks.findings(recording):
+    for finding in findings_of(recording):
         print(f"dualfoot import: warning: {finding.sentence}", file=sys.stderr)

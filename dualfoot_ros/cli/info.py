@@ -10,15 +10,11 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from ..core.errors import AlignmentError
+from ..core import AlignmentError
 from .arguments import add_topic_arguments, load_bag
 
 if TYPE_CHECKING:
-    from ..inspection.field_facts import FieldFacts
-    from ..inspection.findings import Finding
-    from ..inspection.pressure_facts import PressureFacts
-    from ..inspection.quality import Quality
-    from ..inspection.stance_statistics import Stances
+    from ..inspection import FieldFacts, Finding, PressureFacts, Quality, Stances
     from ..recording import Recording
 
 HELP = "tell in words what is in a bag: rates, gaps, standstill, units, stances"
@@ -44,12 +40,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Read, judge and tell; 2 when the bag cannot be evaluated."""
-    from ..inspection.findings import findings, qualities_of
+    from ..inspection import findings_of, qualities_of
     from ..recording import list_topics
 
     recording = load_bag(args.bag, args)
     qualities = qualities_of(recording)
-    found = list(findings(recording, qualities))
+    found = list(findings_of(recording, qualities))
     broken = any(f.severity == "error" for f in found)
     stances, of_walk = ({}, []) if broken or args.no_stances else _walked_on(recording)
     found += of_walk
@@ -74,9 +70,7 @@ def _walked_on(recording: Recording) -> tuple[dict[str, Stances], list[Finding]]
     """Track the feet; return their stances and what the tracks show to be wrong."""
     from rich.console import Console
 
-    from ..inspection.exchanged_feet import walk_findings
-    from ..inspection.findings import require_usable
-    from ..inspection.stance_statistics import free_tracks, stances_of
+    from ..inspection import free_tracks, require_usable, stances_of, walk_findings
 
     with Console(stderr=True).status("looking for stances"):
         try:
@@ -169,13 +163,13 @@ def _together(left: Quality, right: Quality) -> str:
 
 
 def _pressure(recording: Recording) -> dict[str, PressureFacts]:
-    from ..inspection.pressure_facts import facts_of
+    from ..inspection import facts_of
 
     return {worn: facts_of(series) for worn, series in recording.pressure.items()}
 
 
 def _barometer(worn: str, facts: PressureFacts) -> str:
-    from ..inspection.pressure_facts import wearer
+    from ..inspection import wearer
 
     return (
         f"{wearer(worn)}: {facts.samples} samples from {facts.start_s:.3f} to "
@@ -186,7 +180,7 @@ def _barometer(worn: str, facts: PressureFacts) -> str:
 
 
 def _fields(recording: Recording) -> dict[str, FieldFacts]:
-    from ..inspection.findings import fields_of
+    from ..inspection import fields_of
 
     return fields_of(recording)
 

@@ -107,7 +107,7 @@ def _run(name: str, arguments: list[str]) -> int:
 
 def _sentence(error: Exception) -> str | None:
     """Return what to tell the user of an error; None when it is a fault of the program."""
-    from ..core.errors import DualFootError
+    from ..core import DualFootError
 
     if isinstance(error, DualFootError):
         return str(error)

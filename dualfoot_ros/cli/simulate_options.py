@@ -7,7 +7,7 @@ import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from .settings import setting
+from .arguments import setting
 
 if TYPE_CHECKING:
     from ..simulation import (
@@ -34,8 +34,7 @@ def configurations(
     """
     from dataclasses import asdict
 
-    from ..core.config import nested
-    from ..core.errors import ConfigError
+    from ..core import ConfigError, nested
     from ..simulation import ClockConfig, SensorConfig, WalkConfig, grade
 
     given = {name: getattr(args, name) for name in PLAIN}
@@ -88,8 +87,7 @@ def magnetometer(args: argparse.Namespace) -> MagnetometerConfig | None:
 
 def _optional(args: argparse.Namespace, name: str, there: bool) -> Mapping[str, Any]:
     """Return what ``--set`` gives to a sensor that is only there if asked for."""
-    from ..core.config import nested
-    from ..core.errors import ConfigError
+    from ..core import ConfigError, nested
 
     given: Mapping[str, Any] = nested(dict(setting(text) for text in args.set)).get(name, {})
     if given and not there:

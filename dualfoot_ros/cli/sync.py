@@ -14,7 +14,7 @@ from .progress import progress
 
 if TYPE_CHECKING:
     from ..recording import Recording
-    from ..timing.offset.synchronise import Synchronised
+    from ..timing import Synchronised
 
 HELP = "find the offset between the clocks of the two feet, and write a bag without it"
 EXAMPLES = """\
@@ -59,8 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Find the offset, write the bag, say what was found; return the exit code."""
-    from ..recording.atomic import check_target
-    from ..recording.open_bag import METADATA
+    from ..recording import METADATA, check_target
 
     if args.output is not None:
         check_target(args.output, overwrite=args.overwrite, marker=METADATA)
@@ -73,9 +72,8 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _synchronise(recording: Recording, args: argparse.Namespace) -> Synchronised:
-    from ..recording.log_times import read_arrivals
-    from ..timing import TimingError
-    from ..timing.offset.synchronise import synchronise
+    from ..recording import read_arrivals
+    from ..timing import TimingError, synchronise
 
     left, right = recording.left, recording.right
     if left is None or right is None:

@@ -1,27 +1,96 @@
 """The navigation itself: no I/O, no logging, no clock, no global state."""
 
-from .config import TrackerConfig
-from .errors import AlignmentError, ConfigError, DualFootError, SeriesError
-from .results.trajectory import Event, EventKind, FootTrajectory, Trajectory
-from .results.update import Update
-from .samples.series import FieldSeries, ImuPair, ImuSeries, PoseSeries, PressureSeries
-from .tracker import DualFootTracker
+from .alignment import stillness
+from .config import GROUPS, TrackerConfig, all_specs, method_parameters, nested
+from .config_groups import Alignment, Noise
+from .constraints import METHODS
+from .errors import (
+    AlignmentError,
+    CalibrationError,
+    ConfigError,
+    DualFootError,
+    EvaluationError,
+    RecordingError,
+    SeriesError,
+    SimulationError,
+    SourceError,
+    TimingError,
+)
+from .parameters import Parameters, ParameterSpec, check, parameter
+from .results.events import FEET, Event, EventKind
+from .results.rows import clean_stance, to_trajectory, turn_rows
+from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stance_middles
+from .results.update import FootEstimate, PedestrianEstimate, Update, quaternion_yaw
+from .samples.mounting import IDENTITY, Matrix, Mounting, Vector, axes_matrix, dot
+from .samples.series import (
+    BoolArray,
+    FieldSeries,
+    FloatArray,
+    ImuPair,
+    ImuSeries,
+    IntArray,
+    PoseSeries,
+    PressureSeries,
+)
+from .samples.units import DEGREE, FORCE_UNITS, RATE_UNITS, STANDARD_GRAVITY
+from .tracker import DualFootTracker, fields_of
 
 __all__ = [
+    "DEGREE",
+    "FEET",
+    "FORCE_UNITS",
+    "GROUPS",
+    "IDENTITY",
+    "METHODS",
+    "RATE_UNITS",
+    "STANDARD_GRAVITY",
+    "Alignment",
     "AlignmentError",
+    "BoolArray",
+    "CalibrationError",
     "ConfigError",
     "DualFootError",
     "DualFootTracker",
+    "EvaluationError",
     "Event",
     "EventKind",
     "FieldSeries",
+    "FloatArray",
+    "FootEstimate",
     "FootTrajectory",
     "ImuPair",
     "ImuSeries",
+    "IntArray",
+    "Matrix",
+    "Mounting",
+    "Noise",
+    "ParameterSpec",
+    "Parameters",
+    "PedestrianEstimate",
     "PoseSeries",
     "PressureSeries",
+    "RecordingError",
     "SeriesError",
+    "SimulationError",
+    "SourceError",
+    "TimingError",
     "TrackerConfig",
     "Trajectory",
     "Update",
+    "Vector",
+    "all_specs",
+    "axes_matrix",
+    "check",
+    "clean_stance",
+    "dot",
+    "fields_of",
+    "method_parameters",
+    "nested",
+    "parameter",
+    "quaternion_yaw",
+    "stance_bounds",
+    "stance_middles",
+    "stillness",
+    "to_trajectory",
+    "turn_rows",
 ]

@@ -19,3 +19,27 @@ class SeriesError(DualFootError):
 
 class AlignmentError(DualFootError):
     """A recording has no standstill from which to level the sensors."""
+
+
+class CalibrationError(DualFootError):
+    """A recording does not tell what is asked of it, or a calibration file cannot be used."""
+
+
+class SourceError(DualFootError):
+    """A source, a format or one of its options is unknown, malformed or cannot be used."""
+
+
+class EvaluationError(DualFootError):
+    """An estimate and its reference do not fit together, or a result cannot be written."""
+
+
+class RecordingError(DualFootError):
+    """A bag, a sensor export or a reference file cannot be read, used or written."""
+
+
+class SimulationError(DualFootError):
+    """A walk, a route or a sensor grade that cannot be simulated."""
+
+
+class TimingError(DualFootError):
+    """Two recordings cannot be brought on one time grid."""

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .config import Heading
+from .config_groups import Heading
 from .kernel import Engine
 from .kernel import layout as at
 from .kernel.workspace import Workspace
-from .results.trajectory import FEET, Event, EventKind
+from .results.events import FEET, Event, EventKind
 from .samples.series import FloatArray
 
 LEAST_WAY = 0.5  # m; a shorter way has no direction

@@ -20,7 +20,7 @@ from .joint_estimate import JointEstimate, Outcome
 from .kernel import Engine
 from .kernel import layout as at
 from .kernel.workspace import Workspace
-from .results.trajectory import FEET, Event, EventKind
+from .results.events import FEET, Event, EventKind
 from .roll_back import RollBack
 from .samples.series import FloatArray, IntArray
 

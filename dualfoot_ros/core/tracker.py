@@ -9,13 +9,14 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from .aids import AidInputs
+from .alignment import Opening
 from .config import TrackerConfig
 from .errors import AlignmentError, ConfigError
 from .kernel import BackgroundEngine, Engine, compiled, interpreted
 from .kernel import layout as at
-from .opening import Opening
+from .results.events import FEET, Event, EventKind
 from .results.rows import to_trajectory, turn_rows
-from .results.trajectory import FEET, Event, EventKind, Trajectory
+from .results.trajectory import Trajectory
 from .results.update import Update
 from .samples.pair_gate import MAX_GAP_NS, TIME_JUMPED, PairGate, next_irregular, regular_samples
 from .samples.series import (

@@ -6,7 +6,7 @@ import math
 from collections import Counter, deque
 from dataclasses import dataclass
 
-from ..core.parameters import Parameters, parameter
+from ..core import Parameters, parameter
 from .sample import Sample
 
 AXES = tuple(f"{what} {axis}" for what in ("specific force", "angular rate") for axis in "xyz")

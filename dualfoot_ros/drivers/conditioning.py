@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..core.parameters import parameter
-from ..core.samples.mounting import IDENTITY, Matrix, Mounting, Vector, dot
-from ..core.units import FORCE_UNITS, RATE_UNITS
+from ..core import FORCE_UNITS, IDENTITY, RATE_UNITS, Matrix, Mounting, Vector, dot, parameter
 from .sample import Sample
 
 

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..core.parameters import Parameters, parameter
+from ..core import Parameters, parameter
 from .transports.transport import Transport
 
 FACTOR = 2.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ..core.samples.mounting import Vector
+from ..core import Vector
 
 
 class Sample(NamedTuple):

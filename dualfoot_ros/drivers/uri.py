@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 from urllib.parse import parse_qsl, unquote, urlsplit
 
-from ..core.errors import ConfigError
-from ..core.parameters import Parameters
-from .errors import SourceError
+from ..core import ConfigError, Parameters, SourceError
 from .protocols.registry import FORMATS, find_format
 from .reader import Backoff
 from .transports.ble import BleOptions

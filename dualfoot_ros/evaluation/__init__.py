@@ -1,9 +1,10 @@
 """Metrics, reports and plots of a walk: against truth, floor markers, or the feet themselves."""
 
-from .errors import EvaluationError
+from ..core import EvaluationError
 from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options
 from .frames.yaw_transform import Align, Pair
+from .plain import plain
 from .published import published_trajectory
 from .reports.demo_table import Report, demo_report
 from .track import track, truth_of
@@ -17,6 +18,7 @@ __all__ = [
     "Report",
     "demo_report",
     "evaluate",
+    "plain",
     "published_trajectory",
     "track",
     "truth_of",

@@ -8,10 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..core.results.trajectory import EventKind, FootTrajectory, Trajectory
-from ..core.samples.series import IntArray
-from ..recording.reference import Reference
-from .errors import EvaluationError
+from ..core import EvaluationError, EventKind, FootTrajectory, IntArray, Trajectory
+from ..recording import Reference
 from .frames.association import Footfalls
 from .frames.gauge import (
     Markers,

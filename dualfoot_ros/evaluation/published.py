@@ -14,10 +14,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..core.results.rows import clean_stance
-from ..core.results.trajectory import FEET, Event, EventKind, FootTrajectory, Trajectory
-from ..core.samples.series import FloatArray
-from .errors import EvaluationError
+from ..core import (
+    FEET,
+    EvaluationError,
+    Event,
+    EventKind,
+    FloatArray,
+    FootTrajectory,
+    Trajectory,
+    clean_stance,
+)
 from .frames.association import cut
 from .frames.yaw_transform import YawTransform
 

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..core import DualFootTracker, TrackerConfig, Trajectory
-from ..core.results.trajectory import FEET, stance_middles
-from ..core.samples.series import ImuSeries
-from ..core.tracker import fields_of
-from ..recording.recording import Recording
+from ..core import (
+    FEET,
+    DualFootTracker,
+    EvaluationError,
+    ImuSeries,
+    TrackerConfig,
+    Trajectory,
+    fields_of,
+    stance_middles,
+)
+from ..recording import Recording
 from ..timing import align_with_report
-from .errors import EvaluationError
 from .frames.gauge import Truth
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..core.results.trajectory import Trajectory
+from ..core import Trajectory
 from .findings import Finding
 from .lateral_spacing import side_by_side
 from .passings import passings_of

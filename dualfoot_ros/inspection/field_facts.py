@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.aids.field import RANGE_T
-from ..core.samples.series import ImuSeries
+from ..core import ImuSeries
+from ..core.aids import RANGE_T
 
 EARTH_T = (2e-5, 7e-5)  # what the size of the earth's field is anywhere, with some room
 UNITS_T = {"uT": 1e-6, "nT": 1e-9, "G": 1e-4, "mG": 1e-7}

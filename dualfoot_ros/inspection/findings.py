@@ -7,10 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.results.trajectory import FEET
-from ..core.samples.series import ImuSeries
-from ..recording.errors import RecordingError
-from ..recording.recording import Recording
+from ..core import FEET, ImuSeries, RecordingError
+from ..recording import Recording
 from .field_facts import FieldFacts, field_findings
 from .field_facts import facts_of as field_facts_of
 from .pressure_facts import pressure_findings
@@ -44,9 +42,9 @@ def require_usable(
     Raises
     ------
     RecordingError
-        With the sentence of the first other error that :func:`findings` has.
+        With the sentence of the first other error that :func:`findings_of` has.
     """
-    for finding in findings(recording):
+    for finding in findings_of(recording):
         left_to_others = finding.name == "no_standstill" or (
             finding.name == "not_finite" and allow_not_finite
         )
@@ -56,7 +54,7 @@ def require_usable(
     return recording.left, recording.right
 
 
-def findings(
+def findings_of(
     recording: Recording, qualities: Mapping[str, Quality] | None = None
 ) -> Iterator[Finding]:
     """Yield every objection, the gravest first; ``qualities`` spares computing them again."""

@@ -8,8 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.results.trajectory import FEET, EventKind, FootTrajectory, Trajectory
-from ..core.samples.series import FloatArray, IntArray
+from ..core import FEET, EventKind, FloatArray, FootTrajectory, IntArray, Trajectory
 
 LONGEST_STANCE_S = 1.2  # a longer stance is no step
 LEAST_SWING_M = 0.3  # a shorter swing has no direction

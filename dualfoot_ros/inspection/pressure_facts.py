@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.aids.pressure import RANGE_PA, pressure_height
-from ..core.samples.series import PressureSeries
+from ..core import PressureSeries
+from ..core.aids import RANGE_PA, pressure_height
 from .quality import Quality
 
 HECTO = 100.0

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.samples.series import FloatArray, ImuSeries
+from ..core import FloatArray, ImuSeries
 from ..timing import Sync, clean
 from .standstill import Stand, first_stand
 from .stuck_values import Stuck, stuck_of

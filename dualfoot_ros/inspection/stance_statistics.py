@@ -6,8 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import DualFootTracker, ImuSeries, TrackerConfig
-from ..core.results.trajectory import FootTrajectory, Trajectory, stance_bounds
+from ..core import (
+    DualFootTracker,
+    FootTrajectory,
+    ImuSeries,
+    TrackerConfig,
+    Trajectory,
+    stance_bounds,
+)
 from ..timing import Sync, align
 
 

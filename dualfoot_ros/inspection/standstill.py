@@ -6,9 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.alignment import stillness
-from ..core.config import Alignment
-from ..core.samples.series import FloatArray, ImuSeries
+from ..core import Alignment, FloatArray, ImuSeries, stillness
 
 
 @dataclass(frozen=True)

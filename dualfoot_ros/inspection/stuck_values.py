@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.samples.series import FloatArray, ImuSeries
+from ..core import FloatArray, ImuSeries
 
 LEAST_S = 0.2  # a sensor that repeats itself while it cannot be at rest
 LEAST_AT_REST_S = 3.0

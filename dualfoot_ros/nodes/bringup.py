@@ -15,9 +15,8 @@ from rclpy.parameter import Parameter
 from rclpy.task import Future
 from sensor_msgs.msg import FluidPressure, Imu, MagneticField
 
-from ..core.errors import DualFootError
-from ..core.results.trajectory import FEET
-from ..settings.nodes import BringupOptions, node_specs
+from ..core import FEET, DualFootError
+from ..settings import BringupOptions, node_specs
 from .fusion import FusionNode
 from .imu_adapter import ImuAdapterNode
 from .inputs.field_topics import TOPICS as MAGNETIC

@@ -10,12 +10,10 @@ from rclpy.node import Node
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
-from ..core import DualFootTracker, ImuPair, TrackerConfig
-from ..core.config import all_specs
-from ..core.results.trajectory import FEET
-from ..settings.nodes import Frames, FusionOptions, Reports, node_specs
-from ..settings.nodes import Input as InputOptions
-from ..settings.nodes import Path as PathOptions
+from ..core import FEET, DualFootTracker, ImuPair, TrackerConfig, all_specs
+from ..settings import Frames, FusionOptions, Reports, node_specs
+from ..settings import Input as InputOptions
+from ..settings import Path as PathOptions
 from ..timing import Aligner, ClockModel, Stamping, Sync
 from .inputs.calibrations import of_feet
 from .inputs.field_topics import FieldInputs

@@ -11,14 +11,11 @@ from rclpy.node import Node
 from rclpy.task import Future
 from sensor_msgs.msg import Imu
 
-from ..core.results.trajectory import FEET
-from ..core.samples.mounting import Vector
-from ..core.samples.series import FieldSeries, FloatArray, ImuSeries
+from ..core import FEET, FieldSeries, FloatArray, ImuSeries, Mounting, SourceError, Vector
 from ..drivers import Checks, SensorCheck
 from ..drivers import Sample as Sensed
-from ..drivers.errors import SourceError
-from ..settings.nodes import AdapterOptions, Covariance, Mounting, Play, Reports, Units, node_specs
-from ..settings.nodes import Input as InputOptions
+from ..settings import AdapterOptions, Covariance, Play, Reports, Units, node_specs
+from ..settings import Input as InputOptions
 from ..timing import ClockModel, Stamping
 from .adapter import source_uri as sources
 from .adapter.conversion import Conversion

@@ -12,10 +12,9 @@ from rclpy.task import Future
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 
-from ..core.results.trajectory import FEET
-from ..core.samples.series import ImuSeries
+from ..core import FEET, ImuSeries
 from ..recording import Recording, RecordingError, read_bag
-from ..settings.nodes import Play, ReplayOptions, Reports, node_specs
+from ..settings import Play, ReplayOptions, Reports, node_specs
 from .inputs.field_topics import TOPICS as MAGNETIC
 from .inputs.field_topics import FieldOutput
 from .inputs.pressure_topics import TOPICS, PressureOutputs

@@ -8,10 +8,9 @@ from typing import Any
 from rclpy.node import Node
 from sensor_msgs.msg import Imu
 
-from ..core.results.trajectory import FEET
-from ..core.samples.series import ImuPair
-from ..settings.nodes import Input as InputOptions
-from ..settings.nodes import Reports, node_specs
+from ..core import FEET, ImuPair
+from ..settings import Input as InputOptions
+from ..settings import Reports, node_specs
 from ..timing import Aligner, ClockModel, Stamping, Sync
 from .inputs.stamp_gap import Apart
 from .inputs.stamper import Stamper

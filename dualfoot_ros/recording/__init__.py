@@ -1,20 +1,30 @@
-"""Recordings on disk: rosbag2 bags, sensor exports, references, and the checks on them."""
+"""Recordings on disk: rosbag2 bags, sensor exports and references, in and out."""
 
-from .errors import RecordingError
-from .open_bag import TopicInfo, list_topics
+from ..core import RecordingError
+from .atomic import check_file, check_target, new_directory, write_text
+from .log_times import read_arrivals
+from .open_bag import METADATA, TopicInfo, list_topics
 from .read import read_bag
 from .recording import Recording
 from .reference import Reference
-from .topics import Topics
-from .write import write_bag
+from .topics import PRESSURE_TOPICS, Topics
+from .write import STORAGES, write_bag
 
 __all__ = [
+    "METADATA",
+    "PRESSURE_TOPICS",
+    "STORAGES",
     "Recording",
     "RecordingError",
     "Reference",
     "TopicInfo",
     "Topics",
+    "check_file",
+    "check_target",
     "list_topics",
+    "new_directory",
+    "read_arrivals",
     "read_bag",
     "write_bag",
+    "write_text",
 ]

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from .errors import RecordingError
+from ..core import RecordingError
 
 
 def write_text(path: Path, text: str) -> None:

@@ -13,7 +13,7 @@ import struct
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.samples.series import FloatArray, IntArray
+from ..core import FloatArray, IntArray
 
 LITTLE_ENDIAN = b"\x00\x01\x00\x00"
 STAMP = 4  # after the encapsulation

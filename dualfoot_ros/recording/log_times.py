@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.results.trajectory import FEET
-from ..core.samples.series import IntArray
+from ..core import FEET, IntArray
 from .open_bag import opened
 from .topics import Topics
 

@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..core.samples.series import FloatArray, IntArray
+from ..core import FloatArray, IntArray, RecordingError
 from . import cdr
-from .errors import RecordingError
 from .topics import FIELD_TYPE, IMU_TYPE, PRESSURE_TYPE, TRUTH_TYPE
 
 IMU_DOUBLES = 37  # orientation, its covariance, rate, covariance, specific force, covariance

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from .errors import RecordingError
+from ..core import RecordingError
 
 if TYPE_CHECKING:
     from rosbags.interfaces import Connection

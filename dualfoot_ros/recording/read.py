@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..core.results.trajectory import FEET
-from ..core.samples.series import FloatArray, ImuSeries, PoseSeries, PressureSeries
+from ..core import FEET, FloatArray, ImuSeries, PoseSeries, PressureSeries, RecordingError
 from . import message_tables as messages
-from .errors import RecordingError
 from .open_bag import iterate, opened
 from .recording import Recording
 from .reference import FILE_NAME, Reference

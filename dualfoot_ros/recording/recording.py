@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from ..core.samples.series import ImuSeries, PoseSeries, PressureSeries
+from ..core import ImuSeries, PoseSeries, PressureSeries
 from .reference import Reference
 from .topics import Topics
 

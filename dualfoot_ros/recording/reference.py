@@ -25,10 +25,8 @@ from typing import Any
 
 import numpy as np
 
-from ..core.results.trajectory import FEET
-from ..core.samples.series import FloatArray
+from ..core import FEET, FloatArray, RecordingError
 from .atomic import write_text
-from .errors import RecordingError
 
 FILE_NAME = "reference.yaml"
 FORMAT = "dualfoot_reference"

@@ -9,12 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.results.trajectory import FEET
-from ..core.samples.series import FloatArray, ImuSeries, IntArray, PoseSeries
+from ..core import FEET, FloatArray, ImuSeries, IntArray, PoseSeries, RecordingError
 from . import cdr
 from . import message_tables as messages
 from .atomic import check_target, new_directory
-from .errors import RecordingError
 from .open_bag import METADATA
 from .read import NOTE_PREFIX, Progress
 from .recording import Recording

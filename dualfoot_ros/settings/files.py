@@ -10,9 +10,7 @@ from typing import Any
 
 import yaml
 
-from ..core.config import nested
-from ..core.errors import ConfigError
-from ..core.parameters import ParameterSpec
+from ..core import ConfigError, ParameterSpec, nested
 
 WIDTH = 98
 EXPONENT_ONLY = re.compile(r"^[-+]?[0-9]+[eE][-+]?[0-9]+$")

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..core.parameters import Parameters, ParameterSpec, parameter
-from ..core.samples.mounting import Mounting
-from ..drivers.checks import Checks
-from ..timing import ClockModel, Stamping, Sync
-from ..timing.clock.stamps import POLICIES
+from ..core import Mounting, Parameters, ParameterSpec, parameter
+from ..drivers import Checks
+from ..timing import POLICIES, ClockModel, Stamping, Sync
 
 SYNC_CHOICES = ("internal", "external")
 

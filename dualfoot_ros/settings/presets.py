@@ -7,8 +7,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from ..core.config import TrackerConfig, nested
-from ..core.errors import ConfigError
+from ..core import ConfigError, TrackerConfig, nested
 from .files import flat, read_parameters
 from .nodes import node_parameter_names
 

@@ -1,13 +1,14 @@
 """A walk generator with exact analytic truth, for tests, demonstrations and sweeps."""
 
+from ..core import SimulationError
 from .air_pressure import BarometerConfig
 from .clocks import ClockConfig
-from .errors import SimulationError
 from .magnetometer import MagnetometerConfig
 from .routes import ROUTES, Route, route
 from .sensors import GRADES, SensorConfig, grade
+from .simulate import Simulation, simulate
 from .summary import summary
-from .walk import Simulation, Walk, rigid_pair, simulate, walk
+from .walk import Walk, rigid_pair, walk
 from .walk_config import MOUNTS, Gait, WalkConfig
 
 __all__ = [

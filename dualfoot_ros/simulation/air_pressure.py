@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.signal import lfilter
 
+from ..core import FloatArray, Parameters, PressureSeries, parameter
 from ..core.aids import height_pressure
-from ..core.parameters import Parameters, parameter
-from ..core.samples.series import FloatArray, PressureSeries
 from .clocks import ClockConfig, sample_times
 
 if TYPE_CHECKING:

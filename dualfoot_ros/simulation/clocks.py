@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.parameters import Parameters, parameter
-from ..core.samples.series import FloatArray, IntArray
+from ..core import FloatArray, IntArray, Parameters, parameter
 
 
 @dataclass(frozen=True)

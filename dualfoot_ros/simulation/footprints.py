@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.samples.series import FloatArray
-from .errors import SimulationError
+from ..core import FloatArray, SimulationError
 from .routes import Route
 from .walk_config import WalkConfig
 

@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from ..core.samples.series import FloatArray
+from ..core import FloatArray
 from .footprints import HEEL_STRIKE, TOE_OFF
 
 FOOT_LENGTH_M = 0.17  # from the heel's edge to the ball

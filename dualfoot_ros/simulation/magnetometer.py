@@ -12,8 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from ..core.parameters import Parameters, parameter
-from ..core.samples.series import FloatArray, PoseSeries
+from ..core import FloatArray, Parameters, PoseSeries, parameter
 
 MICRO = 1e-6
 WAVES = 24

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import BSpline
 
-from ..core.samples.series import FloatArray
+from ..core import FloatArray
 from . import gait
 from .footprints import HEEL_STRIKE, Footprints
 from .noise import smooth_noise, smooth_rate_noise

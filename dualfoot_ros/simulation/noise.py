@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import BSpline
 
-from ..core.samples.series import FloatArray
+from ..core import FloatArray
 
 
 def smooth_noise(time_s: FloatArray, spacing_s: float, rng: np.random.Generator) -> FloatArray:

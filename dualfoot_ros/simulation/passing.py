@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.samples.series import FloatArray
+from ..core import FloatArray
 from .footprints import HEEL_STRIKE, TOE_OFF, Footprints
 from .motion import ShoeMotion, Walker
 from .routes import Route

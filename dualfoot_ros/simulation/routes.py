@@ -13,8 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..core.samples.series import FloatArray
-from .errors import SimulationError
+from ..core import FloatArray, SimulationError
 
 
 @dataclass(frozen=True)

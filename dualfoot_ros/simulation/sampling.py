@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.samples.series import FloatArray
+from ..core import FloatArray
 from .motion import Kinematics, ShoeMotion
 
 PANEL_S = 0.006

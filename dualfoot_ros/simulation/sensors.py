@@ -11,9 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.signal import lfilter
 
-from ..core.parameters import Parameters, parameter
-from ..core.samples.series import FloatArray
-from .errors import SimulationError
+from ..core import FloatArray, Parameters, SimulationError, parameter
 
 _RATE = "rad/s"
 _FORCE = "m/s^2"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .walk import Simulation
+from .simulate import Simulation
 
 
 def summary(simulation: Simulation) -> dict[str, Any]:

@@ -2,26 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import NamedTuple
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from ..core.results.trajectory import FEET
-from ..core.samples.series import FloatArray, ImuSeries, IntArray, PoseSeries, PressureSeries
-from .air_pressure import BarometerConfig, barometers
-from .clocks import ClockConfig, Sampling, sample_times
-from .errors import SimulationError
+from ..core import FloatArray, IntArray, PoseSeries, SimulationError
 from .footprints import Footprints, plan
-from .magnetometer import MagnetometerConfig, Surroundings, sense_field
 from .motion import ShoeMotion, Walker
 from .passing import NO_PASSES, Passes, pass_plan, passes, tune
 from .routes import Route, route
 from .sampling import interval_means
-from .sensors import SensorConfig, SensorErrors, draw_pair, measure
 from .walk_config import WalkConfig
 
 START_NS = 1_750_000_000_000_000_000
@@ -63,37 +54,6 @@ class Walk:
         return PoseSeries(stamp_ns, moved.position, _continuous(turned), moved.velocity)
 
 
-@dataclass(frozen=True)
-class Simulation:
-    """Two recordings and all that is known about them.
-
-    Attributes
-    ----------
-    left, right : what the sensors put out, stamped by their own clocks, lost samples missing
-    left_truth, right_truth : exact poses of the sensors' body frames (as published: the sensor's
-        own axes, mounting rotation not undone) at every sampling instant, in true time
-    left_arrival_ns, right_arrival_ns : (N,) true time at which each sample reached the host
-    left_stances, right_stances : (M, 2) ns of true time, flat foot to heel-off
-    moment_ns : (M,) true times of least distance, of the passes in ``walk.passes``
-    left_errors, right_errors : what was drawn for the sensors
-    pressure : what barometers put out, where there are any, by where they are worn
-    """
-
-    left: ImuSeries
-    right: ImuSeries
-    left_truth: PoseSeries
-    right_truth: PoseSeries
-    left_arrival_ns: IntArray
-    right_arrival_ns: IntArray
-    left_stances: IntArray
-    right_stances: IntArray
-    moment_ns: IntArray
-    left_errors: SensorErrors
-    right_errors: SensorErrors
-    walk: Walk
-    pressure: Mapping[str, PressureSeries] = field(default_factory=dict)
-
-
 def walk(config: WalkConfig | None = None, seed: int = 0) -> Walk:
     """Return the motion of both shoes; the same configuration and seed give the same walk.
 
@@ -103,7 +63,7 @@ def walk(config: WalkConfig | None = None, seed: int = 0) -> Walk:
         When the route cannot be repeated or has no room for the stops.
     """
     config = config or WalkConfig()
-    rngs = _generators(seed)
+    rngs = generators(seed)
     line = route(config.route, config.laps)
     prints = plan(config, line, rngs["plan"])
     wanted = pass_plan(config, line, prints, rngs["pass"])
@@ -144,108 +104,12 @@ def rigid_pair(walked: Walk, separation: float = 0.014) -> Walk:
     )
 
 
-def simulate(
-    walk_config: WalkConfig | Walk | None = None,
-    sensor: SensorConfig | None = None,
-    clock: ClockConfig | tuple[ClockConfig, ClockConfig] | None = None,
-    seed: int = 0,
-    barometer: BarometerConfig | None = None,
-    magnetometer: MagnetometerConfig | None = None,
-) -> Simulation:
-    """Simulate a walk (or sense a given one) and return recordings and truth.
-
-    ``clock`` is one for both devices or one each.  There is no pressure without ``barometer`` and
-    no magnetic field without ``magnetometer``.  Walk, sensors, clocks, barometers, surroundings,
-    and magnetometers draw from streams of their own: changing one does not change the others.
-
-    Raises
-    ------
-    SimulationError
-        When the walk cannot be made.
-    """
-    walked = walk_config if isinstance(walk_config, Walk) else walk(walk_config, seed)
-    sensor = sensor or SensorConfig()
-    clocks = clock if isinstance(clock, tuple) else (clock or ClockConfig(),) * 2
-    rngs = _generators(seed)
-    errors = draw_pair(sensor, (rngs["left errors"], rngs["right errors"]))
-    recorded = [
-        _record(walked, index, sensor, errors[index], clocks[index], rngs) for index in range(2)
-    ]
-    if magnetometer is not None:
-        recorded = _with_fields(recorded, magnetometer, rngs)
-    (left, left_truth, left_arrival), (right, right_truth, right_arrival) = (
-        (each.series[each.kept], each.truth, each.arrival_ns[each.kept]) for each in recorded
-    )
-    pressure: dict[str, PressureSeries] = {}
-    if barometer is not None:
-        streams = rngs["left barometer"], rngs["right barometer"]
-        pressure = barometers(walked, barometer, clocks, START_NS, streams)
-    return Simulation(
-        left=left,
-        right=right,
-        left_truth=left_truth,
-        right_truth=right_truth,
-        left_arrival_ns=left_arrival,
-        right_arrival_ns=right_arrival,
-        left_stances=nanoseconds(walked.footprints.stances_of(walked.sides[0])),
-        right_stances=nanoseconds(walked.footprints.stances_of(walked.sides[1])),
-        moment_ns=nanoseconds(walked.passes.time_s),
-        left_errors=errors[0],
-        right_errors=errors[1],
-        walk=walked,
-        pressure=pressure,
-    )
-
-
-class _Recorded(NamedTuple):
-    """What one device measured; ``kept`` (N,) of it was not lost."""
-
-    series: ImuSeries
-    truth: PoseSeries
-    arrival_ns: IntArray
-    kept: NDArray[np.bool_]
-
-
 def nanoseconds(time_s: FloatArray) -> IntArray:
     """Return true time in ns for seconds since the start of the walk."""
     return START_NS + np.round(np.asarray(time_s) * 1e9).astype(np.int64)
 
 
-def _record(
-    walked: Walk,
-    index: int,
-    sensor: SensorConfig,
-    errors: SensorErrors,
-    clock: ClockConfig,
-    rngs: dict[str, np.random.Generator],
-) -> _Recorded:
-    """Return what one device measured, the truth, and when its samples arrived."""
-    foot = ("left", "right")[index]
-    rate = walked.config.rate
-    times: Sampling = sample_times(clock, rate, walked.duration_s, START_NS, rngs[f"{foot} clock"])
-    force, turn = walked.means(index, times.edges_s)
-    ends = times.edges_s[1:]
-    force, turn = measure(sensor, errors, ends, force, turn, rngs[f"{foot} noise"])
-    truth = walked.truth(index, ends, times.true_ns(START_NS))
-    series = ImuSeries(times.stamp_ns, force, turn)
-    return _Recorded(series, truth, times.arrival_ns, times.kept)
-
-
-def _with_fields(
-    recorded: Sequence[_Recorded],
-    config: MagnetometerConfig,
-    rngs: dict[str, np.random.Generator],
-) -> list[_Recorded]:
-    """Return the recordings of both feet with the magnetic field."""
-    surroundings = Surroundings(config, rngs["surroundings"])
-    found = []
-    for foot, each in zip(FEET, recorded, strict=True):
-        field = sense_field(config, surroundings, each.truth, rngs[f"{foot} magnetometer"])
-        found.append(each._replace(series=replace(each.series, magnetic_field=field)))
-    return found
-
-
-def _generators(seed: int) -> dict[str, np.random.Generator]:
+def generators(seed: int) -> dict[str, np.random.Generator]:
     """Return one independent generator a purpose; adding a purpose at the end changes no other."""
     names = (
         "plan", "pass", "left shoe", "right shoe", "left errors", "right errors",

@@ -9,8 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from ..core.parameters import Parameters, parameter
-from ..core.samples.series import FloatArray
+from ..core import FloatArray, Parameters, parameter
 from .routes import ROUTES
 
 

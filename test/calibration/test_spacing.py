@@ -9,7 +9,7 @@ from dualfoot_ros.calibration import CalibrationError
 from dualfoot_ros.calibration.parameter_text import parameter_text
 from dualfoot_ros.calibration.spacing import fit_spacing
 from dualfoot_ros.core import DualFootTracker, TrackerConfig
-from dualfoot_ros.core.results.trajectory import EventKind
+from dualfoot_ros.core.results.events import EventKind
 from dualfoot_ros.inspection.stance_statistics import free_tracks
 from dualfoot_ros.settings.presets import load_config
 from dualfoot_ros.simulation import WalkConfig, simulate

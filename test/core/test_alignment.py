@@ -15,7 +15,7 @@ from dualfoot_ros.core import (
     TrackerConfig,
 )
 from dualfoot_ros.core.alignment import Average, Standstill, Window, stillness
-from dualfoot_ros.core.config import Alignment
+from dualfoot_ros.core.config_groups import Alignment
 
 from .harness import GRAVITY, Pairs, cross_matrix, open_session, simulated, standing_samples, walk
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from dualfoot_ros.core.errors import EvaluationError
 from dualfoot_ros.core.samples.series import PoseSeries
-from dualfoot_ros.evaluation.errors import EvaluationError
 from dualfoot_ros.evaluation.evaluate import evaluate
 from dualfoot_ros.evaluation.frames.gauge import Options
 from dualfoot_ros.evaluation.frames.yaw_transform import Align, Pair, YawTransform

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from dualfoot_ros.core.results.trajectory import Event, EventKind, FootTrajectory, Trajectory
+from dualfoot_ros.core.results.events import Event, EventKind
+from dualfoot_ros.core.results.trajectory import FootTrajectory, Trajectory
 from dualfoot_ros.core.samples.series import PoseSeries
 
 RATE = 50

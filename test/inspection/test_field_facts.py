@@ -10,7 +10,7 @@ from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 from dualfoot_ros.inspection.field_facts import facts_of
-from dualfoot_ros.inspection.findings import fields_of, findings
+from dualfoot_ros.inspection.findings import fields_of, findings_of
 from dualfoot_ros.recording import Recording, read_bag, write_bag
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
@@ -25,7 +25,7 @@ def felt(field, seed=1):
 
 
 def named(left):
-    return {finding.name: finding for finding in findings(Recording(left, moving(2)))}
+    return {finding.name: finding for finding in findings_of(Recording(left, moving(2)))}
 
 
 def test_the_facts_count_what_was_measured_and_tell_its_size():

@@ -7,7 +7,7 @@ import pytest
 from recording.samples import GRAVITY, RATE_HZ, moving
 
 from dualfoot_ros.core import ImuSeries
-from dualfoot_ros.inspection.findings import findings, require_usable
+from dualfoot_ros.inspection.findings import findings_of, require_usable
 from dualfoot_ros.inspection.quality import clipped, quality_of
 from dualfoot_ros.recording import Recording, RecordingError
 
@@ -21,7 +21,7 @@ def of(left=None, right=None):
 
 
 def named(recording):
-    return {finding.name for finding in findings(recording)}
+    return {finding.name for finding in findings_of(recording)}
 
 
 def test_a_good_recording_has_no_objection():

@@ -13,7 +13,7 @@ from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 from dualfoot_ros.core import PressureSeries
-from dualfoot_ros.inspection.findings import findings
+from dualfoot_ros.inspection.findings import findings_of
 from dualfoot_ros.inspection.pressure_facts import facts_of
 from dualfoot_ros.recording import Recording, list_topics, read_bag, write_bag
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
@@ -28,7 +28,7 @@ def same(a, b):
 
 
 def named(made):
-    return {finding.name: finding for finding in findings(made)}
+    return {finding.name: finding for finding in findings_of(made)}
 
 
 def worn(series, where="left"):

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from recording.samples import moving
 
-from dualfoot_ros.inspection.findings import findings, require_usable
+from dualfoot_ros.inspection.findings import findings_of, require_usable
 from dualfoot_ros.inspection.stuck_values import stuck_of
 from dualfoot_ros.recording import Recording, RecordingError
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
@@ -21,7 +21,7 @@ def held(series, first, last):
 
 def told(left):
     recording = Recording(left, moving(2))
-    return [f for f in findings(recording) if f.name == "stuck"]
+    return [f for f in findings_of(recording) if f.name == "stuck"]
 
 
 @settings(max_examples=20, deadline=None)

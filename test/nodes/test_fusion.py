@@ -10,7 +10,7 @@ from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
 from dualfoot_ros.core import DualFootTracker, ImuPair, TrackerConfig
-from dualfoot_ros.core.results.trajectory import EventKind
+from dualfoot_ros.core.results.events import EventKind
 from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.ros import qos

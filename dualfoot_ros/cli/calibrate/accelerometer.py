@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import common as common
 
 if TYPE_CHECKING:
-    from ...calibration.accelerometer import AccelerometerFit
-    from ...calibration.cross_validation import CrossValidation
-    from ...calibration.static import Segment
+    from ...calibration import AccelerometerFit, CrossValidation, Segment
 
     Found = tuple[AccelerometerFit, list[Segment], CrossValidation]
 
@@ -82,10 +80,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _fit(name: str, sources: list[tuple[str, Any]], args: argparse.Namespace) -> Found:
-    from ...calibration import CalibrationError
-    from ...calibration.accelerometer import fit_accelerometer
-    from ...calibration.cross_validation import cross_validate
-    from ...calibration.static import segments_of
+    from ...calibration import CalibrationError, cross_validate, fit_accelerometer, segments_of
 
     segments = [s for label, series in sources for s in segments_of(series, label)]
     try:
@@ -105,7 +100,7 @@ def _draw(found: dict[str, Found], output: Path) -> Path:
 def _words(
     name: str, fit: AccelerometerFit, segments: list[Segment], check: CrossValidation
 ) -> Iterator[str]:
-    from ...calibration.accelerometer import MODELS, rms, why_not
+    from ...calibration import MODELS, rms, why_not
 
     yield (
         f"{name}: {MODELS[fit.model].words} from {len(segments)} standstills in {fit.attitudes} "

@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...core.results.trajectory import FEET
+from ...core import FEET
 from ..arguments import add_topic_arguments
 from ..progress import progress
 
@@ -58,7 +58,7 @@ def add_output_arguments(parser: argparse.ArgumentParser) -> None:
 
 def load(args: argparse.Namespace) -> dict[str, list[tuple[str, ImuSeries]]]:
     """Read the sources by sensor."""
-    from ...calibration.sources import load_sources
+    from ...calibration import load_sources
     from ...recording import Topics
 
     default = Topics()
@@ -73,7 +73,7 @@ def load(args: argparse.Namespace) -> dict[str, list[tuple[str, ImuSeries]]]:
 def existing(path: Path | None) -> Calibration:
     """Return what a calibration file to be written holds already; refuse any other file."""
     from ...calibration import Calibration
-    from ...recording.atomic import check_file
+    from ...recording import check_file
 
     if path is None or not path.exists():
         return Calibration()
@@ -90,7 +90,7 @@ def figure_path(output: Path, what: str, sensors: Sequence[str] = ()) -> Path:
 
 def show(args: argparse.Namespace, facts: Mapping[str, Any], lines: list[str]) -> None:
     """Print ``facts`` as JSON or ``lines`` for people."""
-    from ...evaluation.plain import plain
+    from ...evaluation import plain
 
     print(json.dumps(plain(facts), allow_nan=False) if args.json else "\n".join(lines))
 
@@ -102,8 +102,7 @@ def warn(sentence: str) -> None:
 
 def warn_of(found: Mapping[str, Sequence[tuple[str, ImuSeries]]], triad: str) -> None:
     """Say what is wrong with recordings that tell of ``triad`` all the same."""
-    from ...calibration.soundness import doubts
-    from ...calibration.static import still_spans
+    from ...calibration import doubts, still_spans
     from ...timing import clean
 
     for name, series in (named for sources in found.values() for named in sources):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from . import common as common
 
 if TYPE_CHECKING:
-    from ...calibration.gyro import GyroFit
+    from ...calibration import GyroFit
 
 HELP = "gyro bias from a standstill, and the noise of gyro and accelerometer from a long one"
 FIRST = "  dualfoot calibrate gyro night.csv --foot right -o right.yaml\n"
@@ -45,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Fit, write, print; return the exit code."""
-    from ...calibration.gyro import fit_gyro
+    from ...calibration import fit_gyro
 
     _check_outputs(args)
     calibration = common.existing(args.output)
@@ -75,7 +75,7 @@ def run(args: argparse.Namespace) -> int:
 def _check_outputs(args: argparse.Namespace) -> None:
     """Refuse a parameter file that would replace something else."""
     from ...calibration import CalibrationError
-    from ...recording.atomic import check_file
+    from ...recording import check_file
 
     if args.parameters is None:
         return
@@ -89,7 +89,7 @@ def _check_outputs(args: argparse.Namespace) -> None:
 
 def _noise(found: dict[str, GyroFit]) -> dict[str, float]:
     """Return the parameters that every sensor tells, those of the worst one."""
-    from ...core.config import Noise
+    from ...core import Noise
 
     told = [fit.noise(Noise().bias_time) for fit in found.values()]
     common_names = [name for name in told[0] if all(name in other for other in told)]
@@ -97,9 +97,8 @@ def _noise(found: dict[str, GyroFit]) -> dict[str, float]:
 
 
 def _write_parameters(path: Path, found: dict[str, GyroFit], noise: dict[str, float]) -> Path:
-    from ...calibration import CalibrationError
-    from ...calibration.parameter_text import parameter_text
-    from ...recording.atomic import write_text
+    from ...calibration import CalibrationError, parameter_text
+    from ...recording import write_text
 
     seconds = min(fit.standstill.duration_s for fit in found.values())
     if not noise:

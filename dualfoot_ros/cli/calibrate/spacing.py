@@ -8,12 +8,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..arguments import add_usable_arguments, load_usable
-from ..settings import setting
+from ..arguments import add_usable_arguments, load_usable, setting
 from . import common as common
 
 if TYPE_CHECKING:
-    from ...calibration.spacing import SpacingFit
+    from ...calibration import SpacingFit
 
 HELP = "distance of the feet in passing (c0), when they pass (kappa), and step width, from a walk"
 FIRST = "  dualfoot calibrate spacing walk -o gait.yaml\n"
@@ -58,12 +57,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Track without constraints, fit, write, print; return the exit code."""
-    from ...calibration import CalibrationError
-    from ...calibration.spacing import fit_spacing
+    from ...calibration import CalibrationError, fit_spacing
     from ...evaluation import track
-    from ...inspection.stance_statistics import free_config
-    from ...recording.atomic import check_file
-    from ...settings.presets import load_config
+    from ...inspection import free_config
+    from ...recording import check_file
+    from ...settings import load_config
 
     if args.output is not None:
         check_file(args.output, overwrite=args.overwrite)
@@ -96,8 +94,8 @@ def _unseen(fit: SpacingFit) -> str:
 
 
 def _write(args: argparse.Namespace, fit: SpacingFit) -> list[Path]:
-    from ...calibration.parameter_text import parameter_text
-    from ...recording.atomic import write_text
+    from ...calibration import parameter_text
+    from ...recording import write_text
 
     name = Path(args.bag).name
     remarks = [f"The feet in passing, measured on '{name}' ('dualfoot calibrate spacing').", ""]

@@ -1,13 +1,15 @@
 """Aids that combine with any method: what the floor, the air or the earth tells of a foot."""
 
 from .barometer import WORN, Barometer
-from .field import FieldLog
+from .field import RANGE_T, FieldLog
 from .flat_floor import FlatFloor
 from .inputs import AidInputs
 from .magnetic_heading import MagneticHeading
-from .pressure import PressureLog, height_pressure, pressure_height
+from .pressure import RANGE_PA, PressureLog, height_pressure, pressure_height
 
 __all__ = [
+    "RANGE_PA",
+    "RANGE_T",
     "WORN",
     "AidInputs",
     "Barometer",

@@ -13,10 +13,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..config_aids import Aids
+from ..config_groups import Aids
 from ..constraints.method import Gait, Method, Request, StancePhase
 from ..joint_estimate import JointEstimate, Outcome
-from ..results.trajectory import FEET, EventKind
+from ..results.events import FEET, EventKind
 from .pressure import PressureLog
 
 WORN = (*FEET, "both")  # where a sensor is: "both" serves both feet

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..config_aids import Aids
+from ..config_groups import Aids
 from ..constraints.method import Gait, Method, Request, StancePhase
 from ..joint_estimate import JointEstimate, Outcome
-from ..results.trajectory import EventKind
+from ..results.events import EventKind
 from ..samples.series import FloatArray
 
 

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..config_aids import Aids
+from ..config_groups import Aids
 from ..constraints.method import Method
 from ..errors import ConfigError
-from ..results.trajectory import FEET
+from ..results.events import FEET
 from ..samples.series import FieldSeries, FloatArray
 from .barometer import WORN, Barometer
 from .field import FieldLog

@@ -30,10 +30,10 @@ from typing import Any
 
 import numpy as np
 
-from ..config_aids import Aids
+from ..config_groups import Aids
 from ..constraints.method import Gait, Method, Request, StancePhase
 from ..joint_estimate import JointEstimate, Outcome
-from ..results.trajectory import FEET, EventKind
+from ..results.events import FEET, EventKind
 from ..samples.series import FloatArray
 from .field import FieldLog, NavigationField, mean_field
 

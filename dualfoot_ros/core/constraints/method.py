@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ..joint_estimate import JointEstimate, Outcome
-from ..results.trajectory import EventKind
+from ..results.events import EventKind
 from ..samples.series import FloatArray
 from .learnt_spacing import Spacing
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..kernel import layout as at
 from ..samples.series import FloatArray, IntArray
-from .trajectory import FEET, Event, EventKind, FootTrajectory, Trajectory
+from .events import FEET, Event, EventKind
+from .trajectory import FootTrajectory, Trajectory
 
 
 def matrices(cells: FloatArray) -> FloatArray:

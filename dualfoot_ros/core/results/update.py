@@ -11,8 +11,8 @@ from ..heading import mean_angle
 from ..kernel import layout as at
 from ..kernel.workspace import joint_covariance
 from ..samples.series import FloatArray
+from .events import Event
 from .rows import matrices, zupt_event
-from .trajectory import Event
 
 POSE_SIGNS = np.repeat([1.0, -1.0], 3)  # position error, rotation error = -phi
 

@@ -11,7 +11,7 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Protocol
 
-from ...core.parameters import Parameters, parameter
+from ...core import Parameters, parameter
 from ..sample import Sample, Vector, is_finite
 
 COUNTERS = {

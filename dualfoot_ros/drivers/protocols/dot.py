@@ -11,8 +11,7 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core.parameters import parameter
-from ...core.units import DEGREE
+from ...core import DEGREE, parameter
 from ..sample import Sample, Vector, scaled
 from .decoder import FieldOptions, deliver
 

@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core.parameters import Parameters, parameter
-from ...core.units import DEGREE
+from ...core import DEGREE, Parameters, parameter
 from ..sample import Sample, Vector, scaled
 from .decoder import PacketCounter, deliver
 from .framing import DelimitedFramer

@@ -11,7 +11,7 @@ from binascii import crc_hqx
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core.parameters import Parameters
+from ...core import Parameters
 from ..sample import Sample, Vector, scaled
 from . import cobs
 from .decoder import PacketCounter, deliver

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from ...core.parameters import Parameters
-from ..errors import SourceError
+from ...core import Parameters, SourceError
 from .decoder import Decoder
 from .dot import DotDecoder, DotOptions
 from .dot_csv import DotCsvDecoder, DotCsvOptions

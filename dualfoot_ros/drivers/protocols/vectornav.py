@@ -13,7 +13,7 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import lru_cache
 
-from ...core.parameters import Parameters, parameter
+from ...core import Parameters, parameter
 from ..sample import Sample, Vector, scaled
 from .decoder import deliver
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer

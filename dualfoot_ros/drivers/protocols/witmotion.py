@@ -12,8 +12,7 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core.parameters import Parameters, parameter
-from ...core.units import DEGREE, STANDARD_GRAVITY
+from ...core import DEGREE, STANDARD_GRAVITY, Parameters, parameter
 from ..sample import Sample, Vector, scaled
 from .decoder import deliver
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer

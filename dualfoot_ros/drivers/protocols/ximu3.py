@@ -13,7 +13,7 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core.units import DEGREE, STANDARD_GRAVITY
+from ...core import DEGREE, STANDARD_GRAVITY
 from ..sample import Sample, Vector, scaled
 from .decoder import FieldOptions, deliver
 from .framing import DelimitedFramer

@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 from typing import Any, NamedTuple
 
-from ..errors import SourceError
+from ...core import SourceError
 
 LOOPBACK = "127.0.0.1"
 

@@ -14,8 +14,7 @@ from dataclasses import dataclass
 from importlib import util
 from typing import Any
 
-from ...core.parameters import Parameters, parameter
-from ..errors import SourceError
+from ...core import Parameters, SourceError, parameter
 from ..protocols.dot import PAYLOADS, DotOptions
 from .transport import POLL_S
 

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
-from ...core.parameters import Parameters, parameter
-from ..errors import SourceError
+from ...core import Parameters, SourceError, parameter
 from .transport import CHUNK, POLL_S
 
 

@@ -6,8 +6,7 @@ import socket
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core.parameters import Parameters, parameter
-from ..errors import SourceError
+from ...core import Parameters, SourceError, parameter
 from .address import Address
 from .transport import CHUNK, POLL_S
 

@@ -7,8 +7,7 @@ import socket
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core.parameters import Parameters, parameter
-from ..errors import SourceError
+from ...core import Parameters, SourceError, parameter
 from .address import Address, resolve
 from .senders import MAX_SENDERS
 from .transport import POLL_S

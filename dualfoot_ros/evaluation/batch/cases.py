@@ -8,10 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ...core.config import TrackerConfig, all_specs
-from ...core.constraints import METHODS
-from ...settings.presets import load_config, preset_names
-from ..errors import EvaluationError
+from ...core import METHODS, EvaluationError, TrackerConfig, all_specs
+from ...settings import load_config, preset_names
 
 ONE_SHOE = "rigid_pair"
 SHORT = {"gamma": "stance.threshold"}

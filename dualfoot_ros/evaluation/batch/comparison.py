@@ -11,11 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from ...core import EvaluationError, FloatArray, IntArray
 from ...core.kernel import compiled
-from ...core.samples.series import FloatArray, IntArray
-from ...inspection.findings import require_usable
+from ...inspection import require_usable
 from ...recording import Recording, Topics, read_bag
-from ..errors import EvaluationError
 from ..evaluate import Evaluation, evaluate
 from ..frames.gauge import Options, Truth
 from ..metrics.accuracy import Statistics, statistics

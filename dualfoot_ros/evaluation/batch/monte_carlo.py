@@ -21,11 +21,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import DualFootTracker, TrackerConfig, Trajectory
-from ...core.results.trajectory import FEET, EventKind
-from ...core.samples.series import FloatArray, IntArray, PoseSeries
+from ...core import (
+    FEET,
+    DualFootTracker,
+    EvaluationError,
+    EventKind,
+    FloatArray,
+    IntArray,
+    PoseSeries,
+    TrackerConfig,
+    Trajectory,
+)
 from ...simulation import BarometerConfig, MagnetometerConfig, SensorConfig, WalkConfig, simulate
-from ..errors import EvaluationError
 from ..frames.association import Footfalls
 from ..frames.gauge import Truth, overlap
 from ..frames.yaw_transform import YawTransform

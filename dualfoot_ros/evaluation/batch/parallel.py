@@ -10,7 +10,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from ...core.errors import DualFootError
+from ...core import DualFootError
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")

@@ -6,9 +6,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...core.results.trajectory import FootTrajectory, stance_bounds, stance_middles
-from ...core.samples.series import FloatArray, IntArray, PoseSeries
-from ..errors import EvaluationError
+from ...core import (
+    EvaluationError,
+    FloatArray,
+    FootTrajectory,
+    IntArray,
+    PoseSeries,
+    stance_bounds,
+    stance_middles,
+)
 
 
 def seconds(stamp_ns: IntArray, origin_ns: int) -> FloatArray:

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from ...core.results.trajectory import FEET, Trajectory
-from ...core.samples.series import FloatArray, PoseSeries
-from ..errors import EvaluationError
+from ...core import FEET, EvaluationError, FloatArray, PoseSeries, Trajectory
 from .association import Footfalls, cut, truth_at, within
 from .yaw_transform import FIRST_STRIDES_M, Align, Pair, YawTransform, fit
 

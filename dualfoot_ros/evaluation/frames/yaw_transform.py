@@ -21,9 +21,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from ...core.results.trajectory import FootTrajectory
-from ...core.samples.series import FloatArray
-from ..errors import EvaluationError
+from ...core import EvaluationError, FloatArray, FootTrajectory
 
 FIRST_STRIDES_M = 4.8
 """Length of the start over which ``first_strides`` fits the heading (five floor markers)."""

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.results.trajectory import FootTrajectory
-from ...core.samples.series import FloatArray, PoseSeries
+from ...core import FloatArray, FootTrajectory, PoseSeries
 from ..frames.association import Footfalls
 
 MARKS_M = 200.0

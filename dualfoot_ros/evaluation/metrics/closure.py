@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.results.trajectory import FootTrajectory
-from ...core.samples.series import FloatArray
+from ...core import FloatArray, FootTrajectory
 from ..frames.association import Footfalls
 from .accuracy import percent
 

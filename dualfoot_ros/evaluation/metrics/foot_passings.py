@@ -14,8 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.results.trajectory import FootTrajectory, stance_bounds
-from ...core.samples.series import FloatArray, IntArray
+from ...core import FloatArray, FootTrajectory, IntArray, stance_bounds
 from .accuracy import Statistics, statistics
 
 MIN_STRIDE_M = 0.3

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.samples.series import FloatArray
+from ...core import FloatArray
 from .accuracy import rms
 
 

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.results.trajectory import FootTrajectory
-from ...core.samples.series import FloatArray, IntArray, PoseSeries
+from ...core import FloatArray, FootTrajectory, IntArray, PoseSeries
 
 SMALLEST_STD = 1e-4
 """Below this (m, m/s, rad) no covariance is believed; after a hard constraint it is zero."""

@@ -12,11 +12,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...core.results.trajectory import Trajectory
-from ...core.samples.series import FloatArray, ImuSeries
-from ...recording.recording import Recording
+from ...core import EvaluationError, FloatArray, ImuSeries, Trajectory
+from ...recording import Recording
 from ...timing import align
-from ..errors import EvaluationError
 from ..frames.association import Footfalls
 
 STRIDE = 68

@@ -7,16 +7,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...core.results.trajectory import Trajectory
-from ...recording.recording import Recording
-from ..errors import EvaluationError
+from ...core import EvaluationError, Trajectory
+from ...recording import Recording
 from ..evaluate import Evaluation, evaluate
 from ..frames.gauge import Options
-from ..methods_table import methods_table
 from ..track import truth_of
 from .output import staged, write_metrics
 from .plots import draw_all
 from .tum import write_tracks
+from .walk_table import methods_table
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from ..errors import EvaluationError
+from ...core import EvaluationError
 
 METRICS = "metrics.json"
 OWN = (METRICS, "*.tum", "*.png")

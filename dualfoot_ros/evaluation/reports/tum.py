@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...core.results.trajectory import FootTrajectory
-from ...core.samples.series import PoseSeries
+from ...core import FootTrajectory, PoseSeries
 from ..evaluate import Evaluation
 
 

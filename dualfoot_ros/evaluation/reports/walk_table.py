@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ..evaluate import Evaluation
@@ -13,6 +13,14 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 Row = tuple[str, str, str, str]
+COLUMNS = (
+    "RMSE (m)",
+    "end error (m)",
+    "end error (%)",
+    "heading error,\ncommon (deg)",
+    "heading error,\ndifference (deg)",
+    "feet\ncrossed (%)",
+)
 
 
 def walk_table(run: Evaluation, title: str) -> Table:
@@ -116,3 +124,37 @@ def _spread(label: str, spread: Statistics) -> Iterator[Row]:
     both = f"{number(spread.mean, 3)} +- {number(spread.std, 3)}"
     yield f"{label}, mean +- std (m)", "", "", both
     yield "    RMS, max (m)", "", "", f"{number(spread.rms, 3)}, {number(spread.max, 3)}"
+
+
+def methods_table(runs: Mapping[str, Evaluation], title: str) -> Table:
+    """Return a table of runs that were evaluated against truth, both feet a block."""
+    from rich.table import Table
+
+    first = next(iter(runs.values()))
+    caption = f"aligned by: {first.alignment_name}; headings at the end of the walk"
+    table = Table(title=title, caption=caption, title_justify="left")
+    table.add_column("method")
+    table.add_column("foot")
+    for name in COLUMNS:
+        table.add_column(name, justify="right")
+    for name, run in runs.items():
+        for row in _block(name, run):
+            table.add_row(*row)
+        table.add_section()
+    return table
+
+
+def _block(name: str, run: Evaluation) -> list[tuple[str, ...]]:
+    report = run.truth_report
+    if report is None:
+        return [(name, "", *["-"] * len(COLUMNS))]
+    shared = (
+        number(report.heading.common_end_deg),
+        number(report.heading.difference_end_deg),
+        number(run.feet.crossed_percent, 1),
+    )
+    feet = [
+        (number(errors.rmse_m, 3), number(errors.end_m, 3), number(errors.end_percent))
+        for errors in (report.left, report.right)
+    ]
+    return [(name, "left", *feet[0], *shared), ("", "right", *feet[1], "", "", "")]

@@ -8,10 +8,8 @@ import numpy as np
 from sensor_msgs.msg import Imu
 
 from ...calibration import SensorCalibration
-from ...core.samples.mounting import Mounting
-from ...core.samples.series import FloatArray
-from ...core.units import FORCE_UNITS, RATE_UNITS
-from ...settings.nodes import Covariance, Units
+from ...core import FORCE_UNITS, RATE_UNITS, FloatArray, Mounting
+from ...settings import Covariance, Units
 
 
 class Conversion:

@@ -10,12 +10,9 @@ from collections.abc import Callable
 import numpy as np
 from rclpy.node import Node
 
-from ...core.samples.mounting import Vector
-from ...core.samples.series import FloatArray
-from ...drivers import Checks, Sample, Source, State
-from ...drivers.errors import SourceError
-from ...drivers.transports.udp import UdpTransport
-from ...settings.nodes import Input as InputOptions
+from ...core import FloatArray, SourceError, Vector
+from ...drivers import Checks, Sample, Source, State, UdpTransport
+from ...settings import Input as InputOptions
 from ...timing import Counter, Unwrapper
 from ..ros.diagnostics import ERROR, OK, WARN, Status
 from ..ros.watched_input import Complaint, silence

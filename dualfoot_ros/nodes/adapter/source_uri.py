@@ -10,8 +10,7 @@ from rclpy.exceptions import InvalidTopicNameException
 from rclpy.expand_topic_name import expand_topic_name
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
-from ...core.errors import ConfigError
-from ...core.samples.series import ImuSeries
+from ...core import ConfigError, ImuSeries
 from ...drivers import FORMATS, parse_uri
 from ...recording import RecordingError, read_bag
 from ..ros.program import in_one_line

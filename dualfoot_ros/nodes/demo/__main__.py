@@ -33,7 +33,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         from rich import console, progress  # noqa: F401
 
         from ... import evaluation, recording  # noqa: F401
-        from ...core.errors import DualFootError
+        from ...core import DualFootError
         from ...settings import presets  # noqa: F401
     try:
         return run(args.bag, args.output, args.methods or _methods(), args.config)
@@ -56,7 +56,7 @@ def run(bag: Path, output: Path, methods: Sequence[str], config: str | None = No
 
     from ...evaluation import demo_report, truth_of
     from ...recording import read_bag
-    from ...settings.presets import load_config
+    from ...settings import load_config
 
     console = Console(stderr=True)
     configs = {name: load_config(config, {"method": name}) for name in methods}
@@ -96,7 +96,7 @@ def _methods() -> list[str]:
 
 
 def _check(recording: Recording, has_truth: bool, bag: Path) -> None:
-    from ...core.errors import DualFootError
+    from ...core import DualFootError
 
     missing = [foot for foot in ("left", "right") if not recording.imu(foot)]
     if missing:
@@ -160,7 +160,7 @@ def _compare(
     name: str, live: LiveRun, recording: Recording, config: TrackerConfig, console: Console
 ) -> None:
     """Say whether the offline run of the same samples gives the same numbers."""
-    from ...core.errors import DualFootError
+    from ...core import DualFootError
     from .live_graph import run_offline, same_bits
 
     assert recording.left is not None and recording.right is not None

@@ -10,10 +10,8 @@ from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 
+from ...core import FEET, Event, EventKind, FloatArray, Trajectory, to_trajectory, turn_rows
 from ...core.kernel import layout as at
-from ...core.results.rows import to_trajectory, turn_rows
-from ...core.results.trajectory import FEET, Event, EventKind, Trajectory
-from ...core.samples.series import FloatArray
 from ..results import event_messages as events
 from ..ros import qos
 from ..ros.messages import pose_of, rotation_matrix, to_ns

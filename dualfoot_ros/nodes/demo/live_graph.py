@@ -18,11 +18,16 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from ...core import DualFootTracker, TrackerConfig, Trajectory
-from ...core.errors import DualFootError
-from ...core.results.trajectory import FEET
-from ...core.samples.series import ImuSeries, PressureSeries
-from ...core.tracker import fields_of
+from ...core import (
+    FEET,
+    DualFootError,
+    DualFootTracker,
+    ImuSeries,
+    PressureSeries,
+    TrackerConfig,
+    Trajectory,
+    fields_of,
+)
 from ...timing import align
 from ..fusion import FusionNode
 from ..inputs.field_topics import TOPICS as MAGNETIC

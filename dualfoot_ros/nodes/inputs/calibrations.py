@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from ...calibration import (
+    ANY,
     Calibration,
     CalibrationError,
     SensorCalibration,
     for_feet,
     sensor_calibration,
 )
-from ...calibration.file import ANY
 
 FOOT_UNKNOWN = (
     "nothing says which foot this sensor is on: set foot to left or right, or run it in the "

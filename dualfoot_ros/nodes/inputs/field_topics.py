@@ -8,10 +8,9 @@ from typing import Any
 from rclpy.node import Node
 from sensor_msgs.msg import MagneticField
 
-from ...core.results.trajectory import FEET
-from ...core.samples.series import FloatArray
-from ...recording.topics import Topics
-from ...settings.nodes import Input as InputOptions
+from ...core import FEET, FloatArray
+from ...recording import Topics
+from ...settings import Input as InputOptions
 from ...timing import Stamping
 from ..ros import qos
 from ..ros.messages import set_time, to_ns

@@ -8,9 +8,9 @@ from typing import Any
 from rclpy.node import Node
 from sensor_msgs.msg import FluidPressure
 
-from ...core.samples.series import PressureSeries
-from ...recording.topics import PRESSURE_TOPICS
-from ...settings.nodes import Input as InputOptions
+from ...core import PressureSeries
+from ...recording import PRESSURE_TOPICS
+from ...settings import Input as InputOptions
 from ..ros import qos
 from ..ros.messages import set_time, to_ns
 from ..ros.watched_input import Complaint, Input, watched_publisher

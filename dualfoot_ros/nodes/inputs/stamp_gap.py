@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from ...core.results.trajectory import FEET
+from ...core import FEET
 from ...timing import Aligner
 from ..ros.diagnostics import ERROR, WARN, Status
 

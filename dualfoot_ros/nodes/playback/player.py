@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core.results.trajectory import FEET
-from ...core.samples.series import FieldSeries, FloatArray, ImuSeries, PressureSeries
-from ...settings.nodes import Play
+from ...core import FEET, FieldSeries, FloatArray, ImuSeries, PressureSeries
+from ...settings import Play
 
 Series = ImuSeries | PressureSeries | FieldSeries
 GATE_POLL = 0.0005  # s

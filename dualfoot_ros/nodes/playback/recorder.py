@@ -12,8 +12,7 @@ from rclpy.qos import QoSProfile
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from ...recording.atomic import check_target, new_directory
-from ...recording.open_bag import METADATA
+from ...recording import METADATA, check_target, new_directory
 
 
 class RecorderNode(Node):

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from ...core.results.trajectory import Event, EventKind
+from ...core import Event, EventKind
 from ..ros.diagnostics import OK, WARN
 from ..ros.messages import set_time
 

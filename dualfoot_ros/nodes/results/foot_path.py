@@ -8,9 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from nav_msgs.msg import Path
 
-from ...core.results.trajectory import Event, EventKind
-from ...core.results.update import FootEstimate
-from ...core.samples.series import FloatArray
+from ...core import Event, EventKind, FloatArray, FootEstimate
 from ..ros.messages import pose_stamped, set_time, yaw_quaternion
 
 

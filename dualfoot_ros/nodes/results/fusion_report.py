@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...core.results.trajectory import FEET, Event, EventKind
-from ...core.results.update import Update
+from ...core import FEET, Event, EventKind, Update
 from ..ros.diagnostics import WARN, Rates, Status
 from . import event_messages as events
 

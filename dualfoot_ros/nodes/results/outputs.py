@@ -11,11 +11,9 @@ from nav_msgs.msg import Odometry
 from nav_msgs.msg import Path as PathMessage
 from rclpy.node import Node
 
-from ...core.errors import ConfigError
-from ...core.results.trajectory import FEET, EventKind
-from ...core.results.update import Update
-from ...settings.nodes import Frames
-from ...settings.nodes import Path as PathOptions
+from ...core import FEET, ConfigError, EventKind, Update
+from ...settings import Frames
+from ...settings import Path as PathOptions
 from ..ros import qos
 from ..ros.messages import fill_foot, fill_pedestrian, new_odometry
 from . import event_messages as events

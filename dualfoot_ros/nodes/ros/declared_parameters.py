@@ -13,10 +13,8 @@ from rcl_interfaces.msg import (
 )
 from rclpy.node import Node
 
-from ...core.config import GROUPS, all_specs
-from ...core.constraints import METHODS
-from ...core.parameters import Parameters, ParameterSpec, check
-from ...settings.nodes import node_parameter_names
+from ...core import GROUPS, METHODS, Parameters, ParameterSpec, all_specs, check
+from ...settings import node_parameter_names
 
 Group = TypeVar("Group", bound=Parameters)
 OF_RCLPY = ("use_sim_time", "start_type_description_service")

@@ -10,8 +10,7 @@ from geometry_msgs.msg import Pose, PoseStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
 
-from ...core.results.update import FootEstimate, PedestrianEstimate, quaternion_yaw
-from ...core.samples.series import FloatArray
+from ...core import FloatArray, FootEstimate, PedestrianEstimate, quaternion_yaw
 
 SECOND = 1_000_000_000
 UNKNOWN_RATE_VARIANCE = 1.0e3  # (rad/s)^2; the person's turning rate is not estimated

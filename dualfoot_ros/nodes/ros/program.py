@@ -20,8 +20,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 
-from ...core.errors import DualFootError
-from ...core.parameters import ParameterSpec
+from ...core import DualFootError, ParameterSpec
 
 SOURCE_LINE = re.compile(r" ?, at \S+:\d+")  # where in rcl's own source an error was found
 STOPPED = (KeyboardInterrupt, ExternalShutdownException)

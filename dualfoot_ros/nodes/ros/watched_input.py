@@ -21,7 +21,7 @@ from rclpy.qos import (
     qos_policy_name_from_kind,
 )
 
-from ...settings.nodes import Input as InputOptions
+from ...settings import Input as InputOptions
 from .diagnostics import ERROR, WARN, Status
 
 LOOK_EVERY = 0.25  # s

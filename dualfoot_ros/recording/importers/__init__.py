@@ -2,5 +2,14 @@
 
 from .formats import FORMATS, Format, import_recording
 from .options import ImportOptions
+from .pressure_csv import read_pressure
+from .xsens_dot import read_sensor
 
-__all__ = ["FORMATS", "Format", "ImportOptions", "import_recording"]
+__all__ = [
+    "FORMATS",
+    "Format",
+    "ImportOptions",
+    "import_recording",
+    "read_pressure",
+    "read_sensor",
+]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core.samples.mounting import axes_matrix
-from ...core.samples.series import FloatArray
+from ...core import FloatArray, axes_matrix
 
 IDENTITY = "+x+y+z"
 RIGHT_FRONT_UP = "+y-x+z"  # forward is y, left is against x

@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ...core.samples.series import FloatArray, ImuSeries, IntArray
-from ..errors import RecordingError
+from ...core import FloatArray, ImuSeries, IntArray, RecordingError
 from ..recording import Recording
 from ..reference import Reference
 from . import axes

@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...core.samples.series import FloatArray
+from ...core import FloatArray
 from ..reference import Reference
 
 MARKER_SPACING_M = 1.2

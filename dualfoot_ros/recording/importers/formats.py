@@ -9,8 +9,7 @@ from typing import cast
 
 import numpy as np
 
-from ...core.samples.series import ImuSeries
-from ..errors import RecordingError
+from ...core import ImuSeries, RecordingError
 from ..recording import Recording
 from .options import ImportOptions
 

@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...core.samples.series import FloatArray, PressureSeries
-from ..errors import RecordingError
+from ...core import FloatArray, PressureSeries, RecordingError
 
 TIMES = {"stamp_ns": 1.0, "time_us": 1e3, "SampleTimeFine": 1e3, "time_ms": 1e6, "time_s": 1e9}
 PRESSURES = {"pressure_Pa": 1.0, "pressure_hPa": 100.0, "pressure_mbar": 100.0}

@@ -5,10 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from ...core.results.trajectory import FEET
-from ...core.samples.series import FloatArray, ImuSeries
-from ...core.units import FORCE_UNITS, RATE_UNITS
-from ..errors import RecordingError
+from ...core import FEET, FORCE_UNITS, RATE_UNITS, FloatArray, ImuSeries, RecordingError
 from ..read import read_bag
 from ..recording import Recording
 from ..topics import Topics

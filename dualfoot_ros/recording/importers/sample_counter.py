@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.samples.series import IntArray
+from ...core import IntArray
 
 WRAP_US = 2**32
 

@@ -12,8 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...core.samples.series import FloatArray, ImuSeries
-from ..errors import RecordingError
+from ...core import FloatArray, ImuSeries, RecordingError
 from ..recording import Recording
 from . import axes
 from .options import ImportOptions

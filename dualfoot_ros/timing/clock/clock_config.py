@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...core.parameters import Parameters, parameter
+from ...core import Parameters, parameter
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core.samples.series import FloatArray
+from ...core import FloatArray
 from .envelope import LowerEnvelope
 from .interval import NEAR_S, find_interval
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ...core.parameters import Parameters, parameter
+from ...core import Parameters, parameter
 
 BITS = ("16", "32", "64")
 COUNTERS = ("counted", "wraps", "duplicates", "out_of_order", "restarts", "jumps")

@@ -5,9 +5,8 @@ from __future__ import annotations
 from .clock_config import ClockModel
 from .connection_events import ConnectionEvents
 from .envelope import LowerEnvelope
-from .late import LateArrivals
 from .line import Line
-from .outliers import Arrival, Suspects
+from .outliers import Arrival, LateArrivals, Suspects
 from .settling import SURE, Settling
 from .slew import SlewedTime
 from .state import ClockState

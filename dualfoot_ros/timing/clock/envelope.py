@@ -7,7 +7,7 @@ from collections import deque
 
 import numpy as np
 
-from ...core.samples.series import FloatArray
+from ...core import FloatArray
 from .event_waits import EventWaits
 from .line import REACH_S, Line, below, between
 

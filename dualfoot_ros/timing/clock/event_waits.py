@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.samples.series import FloatArray
+from ...core import FloatArray
 from .line import Line
 
 Point = tuple[float, float]  # time, offset plus wait, s

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ...core.samples.series import BoolArray, FloatArray
+from ...core import BoolArray, FloatArray
 
 INTERVALS_S = np.arange(0.0075, 0.06, 0.00005)  # 7.5 ms is the shortest of Bluetooth Low Energy
 LONGEST_S = 0.4  # time between arrivals that is looked at

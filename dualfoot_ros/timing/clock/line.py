@@ -23,7 +23,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.samples.series import FloatArray
+from ...core import FloatArray
 
 STEEPEST = 0.05  # |skew| that is looked for
 ROUNDS, NODES, DEPTH = 4, 41, 18.0  # quadrature: refinements, nodes, log density kept

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ...core.parameters import Parameters, parameter
-from ...core.results.trajectory import FEET
+from ...core import FEET, Parameters, parameter
 from .clock_config import ClockModel
 from .device_clock import DeviceClock
 from .state import ClockState

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core.samples.series import IntArray
+from ...core import IntArray, TimingError
 from ..clock.clock_config import ClockModel
 from ..clock.device_clock import DeviceClock
-from ..errors import TimingError
 from .result import Offset
 
 BINS = 240

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.samples.series import FloatArray, ImuSeries
+from ...core import FloatArray, ImuSeries
 
 STEP_S = 0.005  # grid of all signals
 SMOOTH_S = 0.04  # a quarter of the shortest feature of a step

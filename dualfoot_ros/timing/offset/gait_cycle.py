@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
-from ..errors import TimingError
-from .correlation import STEP_S, Correlation, Signal
-from .evenness import unevenness
-from .middles import Middle, highest_middles
+from ...core import FloatArray, TimingError
+from .correlation import STEP_S, Correlation, Signal, correlate
 from .result import DOUBT
 
 LEAST_PEAK = 0.6  # correlation below which these are not two feet walking
@@ -22,6 +21,13 @@ EVEN_MARGIN = 2.0  # preference over the next cycle that is a confidence of one 
 PER_CYCLE = 2.0  # preference for a cycle's lead in the correlation of the whole
 LENGTH_CYCLES = 1.2  # that the walk may be longer on one foot: one begins, one may end
 LARGEST_SKEW = 1000e-6  # that is looked for
+CYCLE_S = (0.6, 2.5)  # gait cycles that are looked for
+WINDOW_S, HOP_S = 4.0, 2.0
+LEAST_WINDOWS = 4
+LEAST_SPAN_S = 60.0  # of the windows, to tell a skew
+MOST_POINTS = 500  # that the line is fitted to; the fit takes their square in memory
+KEPT = 0.9  # share of the windows that counts: at a stop one may find nothing
+FLOOR = 0.001  # of a cycle; more even than that is not told apart
 
 
 @dataclass(frozen=True)
@@ -119,3 +125,81 @@ def _lengths_apart(cycle_s: float, left: Signal, right: Signal) -> str:
         f"right clock's skew is near {1e6 * (two / one - 1.0):+.0f} ppm, and the gait tells up to "
         f"{1e6 * LARGEST_SKEW:.0f} ppm."
     )
+
+
+@dataclass(frozen=True)
+class Middle:
+    """Two neighbouring peaks: the lag between them, their distance (the cycle), mean height."""
+
+    lag_s: float
+    cycle_s: float
+    height: float
+
+
+def highest_middles(correlation: Correlation, count: int) -> list[Middle]:
+    """Return the middles of two peaks, the highest first."""
+    from scipy.signal import find_peaks
+
+    value = correlation.value
+    found, _ = find_peaks(
+        value, height=0.5 * float(value.max()), distance=round(CYCLE_S[0] / STEP_S)
+    )
+    peaks = [correlation.peak(int(i)) for i in found]
+    middles = [
+        Middle(0.5 * (one[0] + two[0]), two[0] - one[0], 0.5 * (one[1] + two[1]))
+        for one, two in pairwise(peaks)
+        if CYCLE_S[0] <= two[0] - one[0] <= CYCLE_S[1]
+    ]
+    if not middles:
+        raise TimingError("no gait is seen in the recordings: no two peaks of agreement")
+    return sorted(middles, key=lambda m: -m.height)[:count]
+
+
+def unevenness(left: Signal, right: Signal, whole: Middle) -> tuple[float, int]:
+    """Return by what share of a cycle the windows differ, rms, and how many there are.
+
+    A straight line, a skew, is taken off where they span a minute.  Infinite when there are too
+    few windows, or fewer than half of those that walk have a middle.
+    """
+    points, walking = middles_of_windows(left, right, whole, WINDOW_S, HOP_S, 1.0)
+    if len(points) < max(LEAST_WINDOWS, walking / 2):
+        return float("inf"), len(points)
+    from scipy.stats import siegelslopes
+
+    time_s, lag = points[:, 0] - points[0, 0], points[:, 1] - whole.lag_s
+    if time_s[-1] >= LEAST_SPAN_S:
+        few = slice(None, None, 1 + len(lag) // MOST_POINTS)
+        lag = lag - siegelslopes(lag[few], time_s[few]).slope * time_s
+    squares = np.sort((lag - np.median(lag)) ** 2)[: max(round(KEPT * len(lag)), 1)]
+    return max(float(np.sqrt(squares.mean())) / whole.cycle_s, FLOOR), len(points)
+
+
+def middles_of_windows(
+    left: Signal, right: Signal, whole: Middle, window_s: float, hop_s: float, reach_cycles: float
+) -> tuple[FloatArray, int]:
+    """Return (right stamp in s, lag in s) (N, 2) of the windows that walk; how many there are."""
+    size, hop = round(window_s / STEP_S), round(hop_s / STEP_S)
+    reach = round(reach_cycles * whole.cycle_s / STEP_S)
+    brisk = 0.5 * float(left.values.mean())
+    out, walking = [], 0
+    for begin in range(0, len(left.values) - size // 2, hop):
+        part = left.part(begin, begin + size)
+        at = (part.start_ns - right.start_ns) * 1e-9 - whole.lag_s
+        start = round(at / STEP_S)
+        if start + size < 0 or start > len(right.values):
+            continue
+        other = right.part(start - reach, max(start + size + reach, 0))
+        if min(len(part.values), len(other.values)) < size // 2 or part.values.mean() <= brisk:
+            continue
+        walking += 1
+        lag = _middle_near(correlate(part, other), whole)
+        if lag is not None:
+            out.append((at + 0.5 * window_s + right.start_ns * 1e-9, lag))
+    return np.array(out).reshape(-1, 2), walking
+
+
+def _middle_near(correlation: Correlation, whole: Middle) -> float | None:
+    half = 0.5 * whole.cycle_s
+    one = correlation.maximum_near(whole.lag_s - half, 0.5 * half)
+    two = correlation.maximum_near(whole.lag_s + half, 0.5 * half)
+    return None if one is None or two is None else 0.5 * (one[0] + two[0])

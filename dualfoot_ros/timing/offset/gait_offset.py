@@ -15,12 +15,20 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...core.samples.series import FloatArray, ImuSeries
-from ..errors import TimingError
+from ...core import FloatArray, ImuSeries, TimingError
 from .correlation import STEP_S, Signal, correlate, signal_of
-from .evenness import LEAST_SPAN_S, middles_of_windows
-from .gait_cycle import LARGEST_SKEW, check, choose, doubts, walking
-from .middles import CYCLE_S, Middle, highest_middles
+from .gait_cycle import (
+    CYCLE_S,
+    LARGEST_SKEW,
+    LEAST_SPAN_S,
+    Middle,
+    check,
+    choose,
+    doubts,
+    highest_middles,
+    middles_of_windows,
+    walking,
+)
 from .result import Offset
 
 ASYMMETRY_S = 0.008  # what left and right steps differ by, measured on walks with one clock

@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...core.samples.series import ImuSeries
-from ..errors import TimingError
+from ...core import ImuSeries, TimingError
 from .gait_offset import offset_by_gait
 from .result import DOUBT, Offset
 from .shake import WINDOW_S, Shake, find_shakes, offset_by_shake

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...core.samples.series import ImuSeries, IntArray
+from ...core import ImuSeries, IntArray
 
 DOUBT = 0.5  # confidence below which the result is called doubtful
 

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.samples.series import FloatArray, ImuSeries
-from ..errors import TimingError
+from ...core import FloatArray, ImuSeries, TimingError
 from .correlation import STEP_S, Signal, signal_of
 from .result import Offset
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ...core.results.trajectory import FEET
-from ...core.samples.series import ImuSeries, IntArray
-from ..errors import TimingError
+from ...core import FEET, ImuSeries, IntArray, TimingError
 from .arrival import offset_by_arrival, tells_arrivals
 from .gait_offset import offset_by_gait
 from .motion_offset import METHODS as MOTION_METHODS

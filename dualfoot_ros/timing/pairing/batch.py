@@ -10,12 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.results.trajectory import FEET
-from ...core.samples.series import BoolArray, ImuSeries, IntArray
-from ..clean import Clean, clean
-from ..errors import TimingError
+from ...core import FEET, BoolArray, ImuSeries, IntArray, TimingError
 from .grid_lookup import Places
 from .pairing_config import Sync
+from .stream_gate import Clean, clean
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from typing import Protocol
 
-from ...core.results.trajectory import FEET
+from ...core import FEET
 from .pairing_config import Sync
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.samples.series import BoolArray, FloatArray, ImuSeries, IntArray
+from ...core import BoolArray, FloatArray, ImuSeries, IntArray
 from .pairing_config import Sync
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...core.errors import ConfigError
-from ...core.parameters import Parameters, parameter
+from ...core import ConfigError, Parameters, parameter
 
 
 @dataclass(frozen=True)

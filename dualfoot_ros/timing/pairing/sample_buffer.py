@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from typing import NamedTuple
 
-from ...core.samples.series import FloatArray
+from ...core import FloatArray
 from .pairing_config import Sync
 
 CAPACITY = 20_000  # samples a foot; never reached at sane rates

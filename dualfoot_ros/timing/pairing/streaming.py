@@ -15,8 +15,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...core.results.trajectory import FEET
-from ...core.samples.series import FloatArray, ImuPair
+from ...core import FEET, FloatArray, ImuPair
 from .grid import grid_of
 from .pairing_config import Sync
 from .sample_buffer import WAIT, Found, Track

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core.aids import WORN, Barometer, FlatFloor, PressureLog, height_pressure
-from dualfoot_ros.core.config_aids import Aids
+from dualfoot_ros.core.config_groups import Aids
 
 from ..constraints.joint import MadeUpGait, apart, assert_dense_update, stance, states
 

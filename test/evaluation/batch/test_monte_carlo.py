@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import TrackerConfig
-from dualfoot_ros.core.results.trajectory import Event, EventKind
+from dualfoot_ros.core.results.events import Event, EventKind
 from dualfoot_ros.evaluation.batch.monte_carlo import (
     POINTS,
     WalkJob,

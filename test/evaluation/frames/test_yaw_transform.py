@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from dualfoot_ros.evaluation.errors import EvaluationError
+from dualfoot_ros.core.errors import EvaluationError
 from dualfoot_ros.evaluation.frames.yaw_transform import (
     YawTransform,
     first_strides,

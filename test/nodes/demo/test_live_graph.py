@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import TrackerConfig
-from dualfoot_ros.core.results.trajectory import EventKind
+from dualfoot_ros.core.results.events import EventKind
 from dualfoot_ros.nodes.demo.live_graph import run_live, run_offline, same_bits
 from dualfoot_ros.recording import read_bag
 

@@ -6,12 +6,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dualfoot_ros.calibration import Calibration, CalibrationError, SensorCalibration, Triad
+from dualfoot_ros.core import Mounting
 from dualfoot_ros.core.errors import DualFootError
 from dualfoot_ros.nodes.adapter.conversion import Conversion
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.ros.messages import imu_values
-from dualfoot_ros.settings.nodes import Covariance, Mounting, Units
+from dualfoot_ros.settings.nodes import Covariance, Units
 
 from ..samples import STANDING, imu
 from ..test_imu_adapter import relayed

@@ -1,6 +1,6 @@
 import numpy as np
 
-from dualfoot_ros.core.results.trajectory import Event, EventKind
+from dualfoot_ros.core.results.events import Event, EventKind
 from dualfoot_ros.nodes.results import event_messages as events
 
 CONSTRAINT = Event(

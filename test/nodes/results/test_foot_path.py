@@ -4,7 +4,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from dualfoot_ros.core.results.trajectory import Event, EventKind
+from dualfoot_ros.core.results.events import Event, EventKind
 from dualfoot_ros.nodes.results.foot_path import FootPath
 from dualfoot_ros.nodes.ros.messages import yaw_quaternion
 

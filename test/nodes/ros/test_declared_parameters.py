@@ -2,7 +2,8 @@ import pytest
 from rcl_interfaces.msg import ParameterType
 from rclpy.parameter import Parameter
 
-from dualfoot_ros.core.config import TrackerConfig, Zupt, all_specs
+from dualfoot_ros.core.config import TrackerConfig, all_specs
+from dualfoot_ros.core.config_groups import Zupt
 from dualfoot_ros.core.errors import ConfigError
 from dualfoot_ros.nodes.ros.declared_parameters import declare, descriptor, group
 

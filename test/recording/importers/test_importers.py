@@ -296,13 +296,13 @@ def test_every_format_loads_by_its_name(tmp_path, pair):
 
 
 def test_every_real_walk_imports_with_both_feet_standing_at_the_start(dual_feet):
-    from dualfoot_ros.inspection.findings import findings
+    from dualfoot_ros.inspection.findings import findings_of
 
     walks = sorted(dual_feet.glob("*/*.mat"))
     assert walks
     for path in walks:
         found = import_recording(ImportOptions((path,)))
-        objections = {finding.name for finding in findings(found)}
+        objections = {finding.name for finding in findings_of(found)}
         assert objections == ({"no_overlap"} if "unsynchronised" in str(path) else set()), path
         assert found.reference.closed_loop
         norm = np.linalg.norm(found.right.magnetic_field, axis=1).mean()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from dualfoot_ros.recording.errors import RecordingError
+from dualfoot_ros.core.errors import RecordingError
 from dualfoot_ros.recording.importers.pressure_csv import read_pressure
 
 

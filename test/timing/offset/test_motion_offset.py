@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core import DualFootTracker, ImuSeries, TrackerConfig
-from dualfoot_ros.core.results.trajectory import EventKind
+from dualfoot_ros.core.results.events import EventKind
 from dualfoot_ros.evaluation.metrics.foot_passings import passings
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 from dualfoot_ros.simulation import ClockConfig, WalkConfig, simulate

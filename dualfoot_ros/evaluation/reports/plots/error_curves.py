@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ....core.results.trajectory import FEET
-from ....core.samples.series import FloatArray
+from ....core import FEET, FloatArray
 from ...evaluate import Evaluation
 from ...frames.association import Footfalls
 from ...metrics.accuracy import heading_error

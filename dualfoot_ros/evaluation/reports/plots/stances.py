@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ....core.results.trajectory import stance_bounds
+from ....core import stance_bounds
 from ...evaluate import Evaluation
 from ...frames.association import seconds
 from .style import FOOT, new_figure, save

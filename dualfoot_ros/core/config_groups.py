@@ -1,0 +1,216 @@
+"""Groups of the tracker's parameters: default, unit, range and meaning of each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .errors import ConfigError
+from .parameters import Parameters, parameter
+
+
+@dataclass(frozen=True)
+class Alignment(Parameters):
+    """Levelling and gyro bias from a standstill that is checked, not assumed."""
+
+    duration: float = parameter(
+        2.0, "standstill needed before output starts", unit="s", minimum=0.5, maximum=60.0
+    )
+    window: float = parameter(
+        0.75, "length of the window that is checked", unit="s", minimum=0.1, maximum=5.0
+    )
+    still_rate_std: float = parameter(
+        1.0e-3,
+        "angular rate scatter below which windows count alike; above it by 1 / scatter^4",
+        unit="rad/s",
+        minimum=1e-6,
+        maximum=1.0,
+    )
+    max_rate_std: float = parameter(
+        0.03, "angular rate scatter of a still window", unit="rad/s", minimum=1e-5, maximum=1.0
+    )
+    max_force_std: float = parameter(
+        0.15, "specific force scatter of a still window", unit="m/s^2", minimum=1e-4, maximum=5.0
+    )
+    max_rate: float = parameter(
+        0.15,
+        "mean angular rate (a bias) of a still window",
+        unit="rad/s",
+        minimum=0.0,
+        maximum=1.0,
+    )
+    max_gravity_error: float = parameter(
+        1.0, "mean specific force may differ from g by", unit="m/s^2", minimum=0.01, maximum=5.0
+    )
+
+
+@dataclass(frozen=True)
+class Heading(Parameters):
+    """What the x axis of the navigation frame is."""
+
+    source: str = parameter(
+        "first_strides",
+        "x axis along the first strides, along the sensors' own x axes, or given for both feet",
+        choices=("first_strides", "sensor", "given"),
+    )
+    given: float = parameter(
+        0.0,
+        "heading of the first strides in the navigation frame (source: given)",
+        unit="rad",
+        minimum=-6.3,
+        maximum=6.3,
+    )
+    from_stance: int = parameter(1, "first stance that fixes the direction", minimum=0, maximum=20)
+    to_stance: int = parameter(3, "last stance that fixes the direction", minimum=1, maximum=40)
+
+    def __post_init__(self) -> None:
+        """Check that the two stances are in order."""
+        super().__post_init__()
+        if self.from_stance >= self.to_stance:
+            raise ConfigError(
+                f"parameter 'heading.to_stance' is {self.to_stance}; allowed is more than "
+                f"heading.from_stance, {self.from_stance}"
+            )
+
+
+@dataclass(frozen=True)
+class Noise(Parameters):
+    """Sensor model: densities for Q, eq. (8) of Liu et al. 2023."""
+
+    gyro: float = parameter(
+        3.0e-3, "angular rate noise density", unit="rad/s/sqrt(Hz)", minimum=0.0, maximum=1.0
+    )
+    accelerometer: float = parameter(
+        2.0e-2, "specific force noise density", unit="m/s^2/sqrt(Hz)", minimum=0.0, maximum=10.0
+    )
+    gyro_bias: float = parameter(
+        2.0e-6, "gyro bias driving noise", unit="rad/s/sqrt(s)", minimum=0.0, maximum=1.0
+    )
+    accelerometer_bias: float = parameter(
+        2.0e-5, "accelerometer bias driving noise", unit="m/s^2/sqrt(s)", minimum=0.0, maximum=1.0
+    )
+    bias_time: float = parameter(
+        1800.0, "correlation time of the biases", unit="s", minimum=1.0, maximum=1e9
+    )
+
+
+@dataclass(frozen=True)
+class Initial(Parameters):
+    """Standard deviations of the initial error state (P0)."""
+
+    position: float = parameter(0.02, "position", unit="m", minimum=0.0, maximum=100.0)
+    velocity: float = parameter(0.01, "velocity", unit="m/s", minimum=0.0, maximum=10.0)
+    tilt: float = parameter(0.01, "roll and pitch", unit="rad", minimum=0.0, maximum=1.0)
+    yaw: float = parameter(
+        0.03, "yaw against the first strides", unit="rad", minimum=0.0, maximum=3.2
+    )
+    gyro_bias: float = parameter(
+        1.0e-4, "gyro bias, the least of it", unit="rad/s", minimum=0.0, maximum=1.0
+    )
+    accelerometer_bias: float = parameter(
+        0.1, "accelerometer bias", unit="m/s^2", minimum=0.0, maximum=5.0
+    )
+    spacing: float = parameter(
+        0.15, "lateral distance of the feet at the start", unit="m", minimum=0.0, maximum=1.0
+    )
+
+
+@dataclass(frozen=True)
+class Stance(Parameters):
+    """GLRT stance detector (Skog et al. 2010) and the clean-up of impossible phases."""
+
+    window: float = parameter(0.05, "GLRT window W", unit="s", minimum=0.005, maximum=0.5)
+    threshold: float = parameter(
+        6000.0, "GLRT threshold gamma (dimensionless)", minimum=1.0, maximum=1e9
+    )
+    gyro_std: float = parameter(
+        1.4e-2, "angular rate noise in the GLRT", unit="rad/s", minimum=1e-6, maximum=1.0
+    )
+    force_std: float = parameter(
+        4.2e-2, "specific force noise in the GLRT", unit="m/s^2", minimum=1e-6, maximum=10.0
+    )
+    min_stance: float = parameter(
+        0.1, "a shorter stance is none", unit="s", minimum=0.0, maximum=1.0
+    )
+    min_swing: float = parameter(
+        0.12, "a shorter swing is none", unit="s", minimum=0.0, maximum=1.0
+    )
+
+
+@dataclass(frozen=True)
+class Zupt(Parameters):
+    """Zero-velocity update, eq. (12), at the point about which the foot pivots."""
+
+    std: float = parameter(0.05, "velocity noise in stance", unit="m/s", minimum=1e-4, maximum=1.0)
+    rate_std: float = parameter(
+        0.05,
+        "velocity noise added per angular rate",
+        unit="m/s per rad/s",
+        minimum=0.0,
+        maximum=1.0,
+    )
+    still_std: float = parameter(
+        0.002, "velocity noise standing still", unit="m/s", minimum=1e-5, maximum=1.0
+    )
+    still_after: float = parameter(
+        1.5, "a stance this long is standing still", unit="s", minimum=0.2, maximum=1e6
+    )
+    lever_arm: float = parameter(
+        0.09,
+        "height of the sensor above the pivot of the foot (0: the papers' plain ZUPT)",
+        unit="m",
+        minimum=0.0,
+        maximum=0.5,
+    )
+    lever_back: float = parameter(
+        0.08,
+        "how far the pivot is behind the sensor, along the foot",
+        unit="m",
+        minimum=-0.3,
+        maximum=0.3,
+    )
+
+
+@dataclass(frozen=True)
+class Aids(Parameters):
+    """What else is known of a standing foot; all off unless switched on."""
+
+    flat_floor: bool = parameter(False, "walking on one level only: height zero in stance")
+    floor_std: float = parameter(
+        0.01, "unevenness of the floor", unit="m", minimum=1e-4, maximum=1.0
+    )
+    static_std: float = parameter(
+        0.02, "how far a sensor moves on a standing foot", unit="m", minimum=1e-4, maximum=1.0
+    )
+    barometer: bool = parameter(False, "height from air pressure in stance")
+    barometer_std: float = parameter(
+        0.3, "noise of a stance's mean pressure height", unit="m", minimum=1e-3, maximum=100.0
+    )
+    barometer_samples: int = parameter(
+        3, "pressure samples needed in a stance", minimum=1, maximum=1000
+    )
+    magnetic_heading: bool = parameter(
+        False, "heading from the magnetic field in stance, against that on the first stances"
+    )
+    magnetic_std: float = parameter(
+        0.35,
+        "error of the field's direction; what iron on the foot does to it repeats itself",
+        unit="rad",
+        minimum=0.01,
+        maximum=3.0,
+    )
+    magnetic_size: float = parameter(
+        0.06,
+        "share by which the field's size may differ from the reference's",
+        minimum=0.001,
+        maximum=10.0,
+    )
+    magnetic_dip: float = parameter(
+        0.07,
+        "by how much its dip may differ from the reference's",
+        unit="rad",
+        minimum=0.001,
+        maximum=3.2,
+    )
+    magnetic_stances: int = parameter(
+        4, "stances in a row that must agree to be the reference", minimum=2, maximum=100
+    )

@@ -1,0 +1,56 @@
+"""Events: what was applied to, or found in, the estimate, and when."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from ..samples.series import FloatArray
+
+FEET = ("left", "right")
+
+
+class EventKind(StrEnum):
+    """What can happen at an epoch."""
+
+    ALIGNED = "aligned"
+    STANCE_START = "stance_start"
+    STANCE_END = "stance_end"
+    ZUPT = "zupt"
+    CONSTRAINT = "constraint"
+    AID = "aid"
+    HEADING = "heading"
+    RESET = "reset"
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that was applied to, or found in, the estimate.
+
+    Attributes
+    ----------
+    kind : what happened
+    stamp_ns : when it holds (for a constraint at the minimum-distance moment: that moment)
+    foot : "left", "right" or "both"
+    detected_ns : the epoch at which it became known and was applied; never before ``stamp_ns``
+    innovation : (m,) predicted minus measured (estimate minus truth, as the filter's errors), in
+        the units of the measurement
+    S : (m, m) innovation covariance
+    nis : normalised innovation squared, innovation' S^-1 innovation
+    accepted : False when a gate or a rule refused to apply it
+    detail : further named values (distance before and after, correction size, reason ...)
+    """
+
+    kind: EventKind
+    stamp_ns: int
+    foot: str
+    detected_ns: int
+    innovation: FloatArray = field(default_factory=lambda: np.empty(0))
+    S: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
+    nis: float = float("nan")
+    accepted: bool = True
+    detail: Mapping[str, Any] = field(default_factory=dict)

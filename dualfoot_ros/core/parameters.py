@@ -1,25 +1,40 @@
-"""Parameters as data: frozen dataclasses that know their units, ranges and meaning.
+"""Parameters as data: frozen dataclasses that know their types, units, ranges and meaning.
 
 Every parameter group of the package derives from :class:`Parameters` and declares its fields with
 :func:`parameter`.  YAML files, ROS parameter descriptors, the command line and the tables of the
-README are all generated from, or checked against, what stands there.
+documentation are all generated from, or checked against, these declarations.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import MISSING, dataclass, field, fields
-from typing import Any, Self
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import MISSING, Field, dataclass, field, fields
+from functools import cache
+from typing import Any, Self, TypeVar, get_args, get_origin, get_type_hints
 
 from .errors import ConfigError
+
+Value = TypeVar("Value", bool, int, float, str, tuple[float, float], tuple[float, float, float])
+Choices = tuple[str, ...] | Callable[[], tuple[str, ...]]
+SCALARS = (bool, int, float, str)
 
 
 @dataclass(frozen=True)
 class ParameterSpec:
-    """One parameter as others need to see it: a dotted name, its default, unit, range, meaning."""
+    """One parameter as others need to see it.
+
+    Attributes
+    ----------
+    name : dotted name
+    type : ``bool``, ``int``, ``float``, ``str`` or ``tuple`` (of numbers), from the annotation
+    default : a value of that type
+    minimum, maximum : range of a number, or of each number of a tuple
+    choices : allowed texts, None where any text is
+    """
 
     name: str
+    type: type
     default: Any
     unit: str
     minimum: float | None
@@ -29,32 +44,36 @@ class ParameterSpec:
 
     @property
     def allowed(self) -> str:
-        """What values are allowed, in words."""
+        """Allowed values in words."""
         if self.choices is not None:
             return "one of " + ", ".join(self.choices)
+        if self.type is bool:
+            return "true or false"
+        if self.type is str:
+            return "a text"
         low = "-inf" if self.minimum is None else f"{self.minimum:g}"
         high = "inf" if self.maximum is None else f"{self.maximum:g}"
         unit = f" {self.unit}" if self.unit else ""
-        if isinstance(self.default, bool):
-            return "true or false"
-        if isinstance(self.default, str):
-            return "a text"
-        if isinstance(self.default, tuple):
+        if self.type is tuple:
             return f"{len(self.default)} numbers in [{low}, {high}]{unit}"
-        kind = "a whole number" if isinstance(self.default, int) else "a number"
+        kind = "a whole number" if self.type is int else "a number"
         return f"{kind} in [{low}, {high}]{unit}"
 
 
 def parameter(
-    default: Any,
+    default: Value,
     description: str,
     *,
     unit: str = "",
     minimum: float | None = None,
     maximum: float | None = None,
-    choices: tuple[str, ...] | None = None,
-) -> Any:
-    """Declare a field of a :class:`Parameters` class; the type is the type of its default."""
+    choices: Choices | None = None,
+) -> Value:
+    """Declare a field of a :class:`Parameters` class.
+
+    The annotation of the field is the type of the parameter: ``rate: float = parameter(0, ...)``
+    is a float.  ``choices`` may be a function where they are known only later.
+    """
     meta = {
         "unit": unit,
         "minimum": minimum,
@@ -62,12 +81,26 @@ def parameter(
         "choices": choices,
         "description": description,
     }
-    return field(default=default, metadata=meta)
+    declared: Any = field(default=default, metadata=meta)
+    return declared
 
 
 @dataclass(frozen=True)
 class Parameters:
     """Base of every parameter group; values are checked when an instance is made."""
+
+    def __init_subclass__(cls) -> None:
+        """Refuse declarations whose default is not of the annotated type.
+
+        Raises
+        ------
+        TypeError
+            Naming the class, the field, its annotation and its default.
+        """
+        super().__init_subclass__()
+        for name, declared in list(vars(cls).items()):
+            if is_declared(declared):
+                _check_default(cls, name, declared.default)
 
     def __post_init__(self) -> None:
         """Check every field against its declaration; raise :class:`ConfigError` on a misfit."""
@@ -79,8 +112,12 @@ class Parameters:
     def specs(cls, prefix: str = "") -> Iterator[ParameterSpec]:
         """Yield the declared parameters, their names prefixed with ``prefix``."""
         for item in fields(cls):
-            if "description" in item.metadata and item.default is not MISSING:
-                yield ParameterSpec(name=prefix + item.name, default=item.default, **item.metadata)
+            if is_declared(item):
+                kind, choices = _types(cls)[item.name], item.metadata["choices"]
+                meta = {**item.metadata, "choices": choices() if callable(choices) else choices}
+                default: Any = item.default
+                default = float(default) if kind is float else default
+                yield ParameterSpec(prefix + item.name, kind, default, **meta)
 
     @classmethod
     def from_mapping(cls, mapping: Mapping[str, Any], prefix: str = "") -> Self:
@@ -96,10 +133,23 @@ class Parameters:
         return cls(**values)
 
 
+@cache
+def _types(cls: Any) -> dict[str, type]:
+    """Return the type of every field by its annotation; a tuple of numbers is ``tuple``."""
+    return {name: get_origin(hint) or hint for name, hint in get_type_hints(cls).items()}
+
+
+def is_declared(item: object) -> bool:
+    """Return whether a field was declared with :func:`parameter`."""
+    return (
+        isinstance(item, Field) and "description" in item.metadata and item.default is not MISSING
+    )
+
+
 def check(spec: ParameterSpec, value: Any, prefix: str = "") -> Any:
     """Return ``value`` as the type of the parameter, or raise :class:`ConfigError` saying why."""
     try:
-        value = _converted(spec.default, value)
+        value = _converted(spec, value)
     except (TypeError, ValueError, OverflowError):
         raise _refusal(spec, value, prefix) from None
     if spec.choices is not None and value not in spec.choices:
@@ -114,16 +164,17 @@ def check(spec: ParameterSpec, value: Any, prefix: str = "") -> Any:
     return value
 
 
-def _converted(default: Any, value: Any) -> Any:
-    if isinstance(default, (bool, str)):
-        if type(value) is not type(default):
+def _converted(spec: ParameterSpec, value: Any) -> Any:
+    """Return ``value`` as the type of ``spec``; raise TypeError or ValueError if it is not one."""
+    if spec.type in (bool, str):
+        if type(value) is not spec.type:
             raise TypeError
         return value
-    if isinstance(default, tuple):
-        if isinstance(value, str) or len(value) != len(default):
+    if spec.type is tuple:
+        if isinstance(value, str) or len(value) != len(spec.default):
             raise ValueError
         return tuple(float(_number(v)) for v in value)
-    if isinstance(default, int):
+    if spec.type is int:
         if int(_number(value)) != value:
             raise ValueError
         return int(value)
@@ -134,6 +185,22 @@ def _number(value: Any) -> Any:
     if isinstance(value, (bool, str)):
         raise TypeError
     return value
+
+
+def _check_default(cls: type, name: str, default: Any) -> None:
+    """Raise TypeError when ``default`` is not what field ``name`` of ``cls`` is annotated as."""
+    kind = get_type_hints(cls)[name]
+    if kind in SCALARS:
+        fits = type(default) is kind or (kind is float and type(default) is int)
+    else:
+        numbers = get_origin(kind) is tuple and set(get_args(kind)) == {float}
+        fits = numbers and type(default) is tuple and len(default) == len(get_args(kind))
+    if not fits:
+        raise TypeError(
+            f"parameter {cls.__name__}.{name} is annotated {kind} and has the default "
+            f"{default!r}; allowed are bool, int, float, str or a tuple of floats, and a default "
+            "of that type"
+        )
 
 
 def _refusal(spec: ParameterSpec, value: Any, prefix: str) -> ConfigError:

@@ -59,11 +59,11 @@ def descriptor(spec: ParameterSpec) -> ParameterDescriptor:
     )
     if spec.minimum is None or spec.maximum is None:
         return found
-    if isinstance(spec.default, float):
+    if spec.type is float:
         found.floating_point_range = [
             FloatingPointRange(from_value=float(spec.minimum), to_value=float(spec.maximum))
         ]
-    elif isinstance(spec.default, int):
+    elif spec.type is int:
         found.integer_range = [
             IntegerRange(from_value=int(spec.minimum), to_value=int(spec.maximum), step=1)
         ]

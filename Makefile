@@ -20,9 +20,9 @@ $(VENV)/.installed: setup.py scripts/make_venv
 	@scripts/make_venv $(VENV)
 	@touch $@
 
-$(VENV)/.kernel: $(VENV)/.installed $(wildcard dualfoot_ros/core/kernel/*.py)
+$(VENV)/.kernel: $(VENV)/.installed $(wildcard dualfoot_ros/core/kernel/*.py dualfoot_ros/core/compiler/*.py)
 	@echo "compiling the kernel (once, up to half a minute)"
-	@$(BIN)/python -m dualfoot_ros.core.kernel
+	@$(BIN)/python -m dualfoot_ros.core.compiler
 	@touch $@
 
 demo: $(VENV)/.kernel ## replay bags/demo through the real nodes and compare with the truth

@@ -143,10 +143,11 @@ def _objections(
     recording: Recording, config: TrackerConfig, trajectory: Trajectory
 ) -> Iterator[str]:
     """Yield what tracks with nothing between the feet show to be wrong."""
+    from ..core import METHODS
     from ..evaluation import track
     from ..inspection import free_config, walk_findings
 
-    if config.method == "rigid_pair":  # both sensors are on one shoe
+    if METHODS[config.method].sensors_on_one_shoe:
         return
     free = free_config(config)
     tracks = trajectory if config == free else track(recording, free)

@@ -2,7 +2,7 @@
 
 from .alignment import stillness
 from .config import GROUPS, TrackerConfig, all_specs, method_parameters, nested
-from .config_groups import Alignment, Noise
+from .config_groups import AlignmentConfig, NoiseConfig
 from .constraints import METHODS
 from .errors import (
     AlignmentError,
@@ -18,9 +18,18 @@ from .errors import (
 )
 from .parameters import Parameters, ParameterSpec, check, parameter
 from .results.events import FEET, Event, EventKind
+from .results.payloads import Details, DistanceLimit, Passing, Reason, YawTurn
 from .results.rows import clean_stance, to_trajectory, turn_rows
 from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stance_middles
-from .results.update import FootEstimate, PedestrianEstimate, Update, quaternion_yaw
+from .results.update import FootEstimate, PedestrianEstimate, Update
+from .rotation import (
+    about_z,
+    mean_angle,
+    quaternion_matrix,
+    quaternion_yaw,
+    turn_quaternions,
+    yaw_quaternion,
+)
 from .samples.mounting import IDENTITY, Matrix, Mounting, Vector, axes_matrix, dot
 from .samples.series import (
     BoolArray,
@@ -49,6 +58,8 @@ __all__ = [
     "BoolArray",
     "CalibrationError",
     "ConfigError",
+    "Details",
+    "DistanceLimit",
     "DualFootError",
     "DualFootTracker",
     "EvaluationError",
@@ -66,9 +77,11 @@ __all__ = [
     "Noise",
     "ParameterSpec",
     "Parameters",
+    "Passing",
     "PedestrianEstimate",
     "PoseSeries",
     "PressureSeries",
+    "Reason",
     "RecordingError",
     "SeriesError",
     "SimulationError",
@@ -78,19 +91,25 @@ __all__ = [
     "Trajectory",
     "Update",
     "Vector",
+    "YawTurn",
+    "about_z",
     "all_specs",
     "axes_matrix",
     "check",
     "clean_stance",
     "dot",
     "fields_of",
+    "mean_angle",
     "method_parameters",
     "nested",
     "parameter",
+    "quaternion_matrix",
     "quaternion_yaw",
     "stance_bounds",
     "stance_middles",
     "stillness",
     "to_trajectory",
+    "turn_quaternions",
     "turn_rows",
+    "yaw_quaternion",
 ]

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .config import TrackerConfig
-from .config_groups import Alignment
+from .config_groups import AlignmentConfig
 from .samples.series import FloatArray
 
 MEMORY_S = 30.0  # what is older than that fades: biases drift
@@ -62,7 +62,7 @@ class Window:
         off = samples - mean
         return cls(mean, np.sqrt((off * off).sum(axis=0) / len(samples)))
 
-    def complaint(self, config: Alignment, gravity: float) -> str | None:
+    def complaint(self, config: AlignmentConfig, gravity: float) -> str | None:
         """Return why this window is no standstill, or None."""
         mean, std = self.mean.tolist(), self.std.tolist()
         for foot, name in enumerate(("left", "right")):
@@ -124,7 +124,7 @@ class Average:
 class Standstill:
     """Collects pairs while both feet stand and says what they tell."""
 
-    def __init__(self, config: Alignment, gravity: float, rate_hz: float) -> None:
+    def __init__(self, config: AlignmentConfig, gravity: float, rate_hz: float) -> None:
         """Start with nothing collected."""
         self._config, self._gravity = config, gravity
         self._size = max(5, round(config.window * rate_hz))
@@ -178,7 +178,7 @@ class Standstill:
         return left, right
 
 
-class Opening:
+class FirstPairs:
     """Collects the pairs from the first one until both feet have stood long enough."""
 
     def __init__(self, config: TrackerConfig) -> None:

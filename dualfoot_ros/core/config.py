@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, Self
 
-from .config_groups import Aids, Alignment, Heading, Initial, Noise, Stance, Zupt
+from .config_groups import (
+    AidsConfig,
+    AlignmentConfig,
+    HeadingConfig,
+    InitialConfig,
+    NoiseConfig,
+    StanceConfig,
+    ZuptConfig,
+)
 from .constraints import METHODS
 from .errors import ConfigError
 from .parameters import Parameters, ParameterSpec, parameter
 
 GROUPS: dict[str, type[Parameters]] = {
-    "alignment": Alignment,
-    "heading": Heading,
-    "noise": Noise,
-    "initial": Initial,
-    "stance": Stance,
-    "zupt": Zupt,
-    "aids": Aids,
+    "alignment": AlignmentConfig,
+    "heading": HeadingConfig,
+    "noise": NoiseConfig,
+    "initial": InitialConfig,
+    "stance": StanceConfig,
+    "zupt": ZuptConfig,
+    "aids": AidsConfig,
 }
 
 
@@ -27,16 +35,16 @@ class TrackerConfig(Parameters):
     """The whole configuration: the method's name, the common groups, each method's own group."""
 
     method: str = parameter(
-        "spacing_vector", "which system of the papers to run", choices=tuple(METHODS)
+        "spacing_vector", "which system of the papers to run", choices=METHODS.names
     )
     gravity: float = parameter(9.80665, "local gravity", unit="m/s^2", minimum=9.7, maximum=9.9)
-    alignment: Alignment = field(default_factory=Alignment)
-    heading: Heading = field(default_factory=Heading)
-    noise: Noise = field(default_factory=Noise)
-    initial: Initial = field(default_factory=Initial)
-    stance: Stance = field(default_factory=Stance)
-    zupt: Zupt = field(default_factory=Zupt)
-    aids: Aids = field(default_factory=Aids)
+    alignment: AlignmentConfig = field(default_factory=AlignmentConfig)
+    heading: HeadingConfig = field(default_factory=HeadingConfig)
+    noise: NoiseConfig = field(default_factory=NoiseConfig)
+    initial: InitialConfig = field(default_factory=InitialConfig)
+    stance: StanceConfig = field(default_factory=StanceConfig)
+    zupt: ZuptConfig = field(default_factory=ZuptConfig)
+    aids: AidsConfig = field(default_factory=AidsConfig)
     methods: Mapping[str, Parameters] = field(default_factory=dict)
 
     @property
@@ -83,20 +91,22 @@ class TrackerConfig(Parameters):
         return getattr(self.methods.get(group, method_parameters(group)()), key)
 
 
-def all_specs() -> Iterator[ParameterSpec]:
-    """Yield every parameter of the tracker by dotted name, common groups first, then methods."""
+def all_specs(methods: Iterable[str] | None = None) -> Iterator[ParameterSpec]:
+    """Yield every parameter of the tracker by dotted name, common groups first, then methods.
+
+    ``methods`` are the names of those whose parameters are wanted (default: all).
+    """
     yield from TrackerConfig.specs()
     for item in fields(TrackerConfig):
         if item.name in GROUPS:
             yield from GROUPS[item.name].specs(f"{item.name}.")
-    for name in METHODS:
+    for name in METHODS if methods is None else methods:
         yield from method_parameters(name).specs(f"{name}.")
 
 
 def method_parameters(name: str) -> type[Parameters]:
     """Return the parameter class of a method."""
-    found: type[Parameters] = METHODS[name].Config
-    return found
+    return METHODS[name].config_class
 
 
 def nested(mapping: Mapping[str, Any]) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from .parameters import Parameters, parameter
 
 
 @dataclass(frozen=True)
-class Alignment(Parameters):
+class AlignmentConfig(Parameters):
     """Levelling and gyro bias from a standstill that is checked, not assumed."""
 
     duration: float = parameter(
@@ -44,7 +44,7 @@ class Alignment(Parameters):
 
 
 @dataclass(frozen=True)
-class Heading(Parameters):
+class HeadingConfig(Parameters):
     """What the x axis of the navigation frame is."""
 
     source: str = parameter(
@@ -73,7 +73,7 @@ class Heading(Parameters):
 
 
 @dataclass(frozen=True)
-class Noise(Parameters):
+class NoiseConfig(Parameters):
     """Sensor model: densities for Q, eq. (8) of Liu et al. 2023."""
 
     gyro: float = parameter(
@@ -94,7 +94,7 @@ class Noise(Parameters):
 
 
 @dataclass(frozen=True)
-class Initial(Parameters):
+class InitialConfig(Parameters):
     """Standard deviations of the initial error state (P0)."""
 
     position: float = parameter(0.02, "position", unit="m", minimum=0.0, maximum=100.0)
@@ -115,7 +115,7 @@ class Initial(Parameters):
 
 
 @dataclass(frozen=True)
-class Stance(Parameters):
+class StanceConfig(Parameters):
     """GLRT stance detector (Skog et al. 2010) and the clean-up of impossible phases."""
 
     window: float = parameter(0.05, "GLRT window W", unit="s", minimum=0.005, maximum=0.5)
@@ -137,7 +137,7 @@ class Stance(Parameters):
 
 
 @dataclass(frozen=True)
-class Zupt(Parameters):
+class ZuptConfig(Parameters):
     """Zero-velocity update, eq. (12), at the point about which the foot pivots."""
 
     std: float = parameter(0.05, "velocity noise in stance", unit="m/s", minimum=1e-4, maximum=1.0)
@@ -171,7 +171,7 @@ class Zupt(Parameters):
 
 
 @dataclass(frozen=True)
-class Aids(Parameters):
+class AidsConfig(Parameters):
     """What else is known of a standing foot; all off unless switched on."""
 
     flat_floor: bool = parameter(False, "walking on one level only: height zero in stance")

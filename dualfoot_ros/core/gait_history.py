@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from .kernel import layout as at
-from .kernel.workspace import Workspace
+from .kernel import Workspace
+from .kernel import layout as lay
 from .samples.series import FloatArray
 
 
-class Past:
+class GaitHistory:
     """A view of the rings: samples, snapshots, flags and stamps of the last second or so."""
 
     def __init__(self, space: Workspace) -> None:
@@ -26,8 +26,8 @@ class Past:
     def sample(self, foot: int, epoch: int) -> FloatArray:
         """Return specific force and bias-free angular rate (6,) of ``foot`` at ``epoch``."""
         w, ring = self._space.w, self._space.ring
-        start = at.RINGS + at.SAMPLE * (epoch % ring) + 1 + 6 * foot
-        bias = foot * at.FOOT + at.BG
+        start = lay.RINGS + lay.SAMPLE * (epoch % ring) + 1 + 6 * foot
+        bias = foot * lay.FOOT + lay.BG
         values = w[start : start + 6].copy()
         values[3:] -= w[bias : bias + 3]
         return values
@@ -38,7 +38,7 @@ class Past:
 
     def in_stance(self, foot: int, epoch: int) -> bool:
         """Return whether ``foot`` had zero velocity at ``epoch``."""
-        return bool((int(self._space.n[at.N_FLAGS + epoch % self._space.ring]) >> foot) & 1)
+        return bool((int(self._space.n[lay.N_FLAGS + epoch % self._space.ring]) >> foot) & 1)
 
     def remembers(self, epoch: int) -> bool:
         """Return whether the filter can be rolled back to just after ``epoch``."""
@@ -47,7 +47,9 @@ class Past:
     def positions_after(self, epoch: int) -> FloatArray:
         """Return both feet's positions (2, 3) m as estimated at ``epoch``."""
         state = self._space.snapshot(epoch + 1)
-        return np.array([state[f * at.FOOT + at.POS : f * at.FOOT + at.POS + 3] for f in (0, 1)])
+        return np.array(
+            [state[f * lay.FOOT + lay.POS : f * lay.FOOT + lay.POS + 3] for f in (0, 1)]
+        )
 
     def stamp(self, epoch: int, default: int = 0) -> int:
         """Return the stamp in ns of ``epoch``, or ``default`` when it is forgotten."""

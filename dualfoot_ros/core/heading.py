@@ -12,11 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .config_groups import Heading
-from .kernel import Engine
-from .kernel import layout as at
-from .kernel.workspace import Workspace
+from .config_groups import HeadingConfig
+from .initial_state import InitialState
+from .kernel import Engine, Workspace
+from .kernel import layout as lay
 from .results.events import FEET, Event, EventKind
+from .results.payloads import YawTurn
+from .rotation import about_z, mean_angle, turn_between
 from .samples.series import FloatArray
 
 LEAST_WAY = 0.5  # m; a shorter way has no direction
@@ -48,7 +50,7 @@ class Direction:
 class FirstStrides:
     """Collects one foot's stances until they give a direction."""
 
-    def __init__(self, config: Heading) -> None:
+    def __init__(self, config: HeadingConfig) -> None:
         """Use ``config.from_stance`` and ``config.to_stance`` (stance 0 is the stand)."""
         self._config = config
         self._stances: list[tuple[FloatArray, FloatArray, int]] = []
@@ -78,9 +80,9 @@ class FirstStrides:
 class Headings:
     """Both feet's headings: fixed by the first strides, then followed from stance to stance."""
 
-    def __init__(self, config: Heading, space: Workspace) -> None:
+    def __init__(self, config: HeadingConfig, space: Workspace, initial: InitialState) -> None:
         """Start with neither foot's heading known, unless the sensors are taken as they are."""
-        self._space = space
+        self._space, self._initial = space, initial
         as_is = config.source == "sensor"
         self._strides = [None if as_is else FirstStrides(config) for _ in FEET]
         self._first: Direction | None = None  # of the foot that was turned first
@@ -110,7 +112,7 @@ class Headings:
             if walking:
                 self._follow(foot)
             return []
-        start = foot * at.FOOT + at.POS
+        start = foot * lay.FOOT + lay.POS
         position = self._space.w[start : start + 3].copy()
         direction = strides.add(position, self._rotation(foot), stamp)
         if direction is None:
@@ -121,7 +123,7 @@ class Headings:
         ahead = heading + 0.5 * direction.turned
         rotation = about_z(by) @ direction.rotation
         self._reference[foot] = (rotation, ahead)
-        self._space.aim(foot, rotation.T @ np.array([math.cos(ahead), math.sin(ahead), 0.0]))
+        self._initial.aim(foot, rotation.T @ np.array([math.cos(ahead), math.sin(ahead), 0.0]))
         turned = turn(self._space, engine, foot, by, direction.pivot, np.zeros(3), stamp)
         self._follow(foot)
         return [turned]
@@ -156,7 +158,7 @@ class Headings:
     ) -> list[Event]:
         """Move and turn both tracks so that the person is at ``position`` (3,) facing ``yaw``."""
         w = self._space.w
-        middle = 0.5 * (w[at.POS : at.POS + 3] + w[at.FOOT + at.POS : at.FOOT + at.POS + 3])
+        middle = 0.5 * (w[lay.POS : lay.POS + 3] + w[lay.FOOT + lay.POS : lay.FOOT + lay.POS + 3])
         by, shift = yaw - self.mean, position - middle
         self.feet = (self.feet[0] + by, self.feet[1] + by)
         for foot, known in enumerate(self._reference):
@@ -167,7 +169,7 @@ class Headings:
         ]
 
     def _rotation(self, foot: int) -> FloatArray:
-        start = foot * at.FOOT + at.ROT
+        start = foot * lay.FOOT + lay.ROT
         return self._space.w[start : start + 9].reshape(3, 3).copy()
 
 
@@ -188,27 +190,10 @@ def turn(
     c, s = math.cos(yaw), math.sin(yaw)
     for start in space.states():
         engine.turn(space.w, start, foot, c, s, pivot, shift)
-    detail = {
-        "yaw": yaw,
-        "pivot": (float(pivot[0]), float(pivot[1]), 0.0),
-        "shift": tuple(float(v) for v in shift),
-        "joint": joint,
-    }
-    return Event(EventKind.HEADING, stamp, FEET[foot], stamp, detail=detail)
-
-
-def turn_between(before: FloatArray, after: FloatArray) -> float:
-    """Return the turn about the vertical between two R_nb (3, 3), rad, however the sensor sits."""
-    m = after @ before.T
-    return math.atan2(m[1, 0] - m[0, 1], m[0, 0] + m[1, 1])
-
-
-def about_z(angle: float) -> FloatArray:
-    """Return the rotation (3, 3) about the vertical by ``angle`` rad."""
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-
-
-def mean_angle(a: float, b: float) -> float:
-    """Return the circular mean of two angles, rad (eq. (7) of Ma and Särkkä 2023)."""
-    return math.atan2(math.sin(a) + math.sin(b), math.cos(a) + math.cos(b))
+    turned = YawTurn(
+        yaw,
+        (float(pivot[0]), float(pivot[1]), 0.0),
+        (float(shift[0]), float(shift[1]), float(shift[2])),
+        joint,
+    )
+    return Event(EventKind.HEADING, stamp, FEET[foot], stamp, payload=turned)

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from .kernel import Engine
-from .kernel import layout as at
+from .kernel import layout as lay
+from .results.payloads import NO_DETAILS, Payload, named_values
 from .samples.series import FloatArray
 
 if TYPE_CHECKING:
@@ -27,7 +31,19 @@ class Outcome:
     S: FloatArray
     nis: float
     accepted: bool = True
-    detail: Mapping[str, Any] = field(default_factory=dict)
+    payload: Payload = NO_DETAILS
+    reason: StrEnum | None = None
+
+    @property
+    def detail(self) -> dict[str, Any]:
+        """Further values by name, for files and people: those of the payload, and the reason."""
+        return named_values(self.payload, self.reason)
+
+
+def nothing_done(payload: Payload, reason: StrEnum, size: int = 0) -> Outcome:
+    """Return the outcome of a constraint that was not applied, its innovation (size,) zero."""
+    nis = 0.0 if size else math.nan
+    return Outcome(np.zeros(size), np.zeros((size, size)), nis, False, payload, reason)
 
 
 class JointEstimate:
@@ -43,17 +59,17 @@ class JointEstimate:
 
     def position(self, foot: int) -> FloatArray:
         """Return the position (3,) m of foot 0 (left) or 1 (right)."""
-        start = foot * at.FOOT + at.POS
+        start = foot * lay.FOOT + lay.POS
         return self._space.w[start : start + 3].copy()
 
     def velocity(self, foot: int) -> FloatArray:
         """Return the velocity (3,) m/s of foot 0 or 1."""
-        start = foot * at.FOOT + at.VEL
+        start = foot * lay.FOOT + lay.VEL
         return self._space.w[start : start + 3].copy()
 
     def place(self, foot: int, position: FloatArray) -> None:
         """Put foot 0 or 1 at ``position`` (3,) m; nothing else changes."""
-        start = foot * at.FOOT + at.POS
+        start = foot * lay.FOOT + lay.POS
         self._space.w[start : start + 3] = position
 
     def covariance(self) -> FloatArray:
@@ -62,23 +78,23 @@ class JointEstimate:
 
     def rotation(self, foot: int) -> FloatArray:
         """Return R_nb (3, 3) of foot 0 or 1."""
-        start = foot * at.FOOT + at.ROT
+        start = foot * lay.FOOT + lay.ROT
         return self._space.w[start : start + 9].reshape(3, 3).copy()
 
     def relative_position(self) -> list[float]:
         """Return left minus right position, m."""
         w = self._space.w
-        return [float(w[at.POS + i]) - float(w[at.FOOT + at.POS + i]) for i in range(3)]
+        return [float(w[lay.POS + i]) - float(w[lay.FOOT + lay.POS + i]) for i in range(3)]
 
     def relative_covariance(self) -> list[list[float]]:
         """Return the covariance (3, 3) m^2 of left minus right position."""
         w = self._space.w
         return [
             [
-                float(w[at.PLL + at.ROW * i + j])
-                + float(w[at.PRR + at.ROW * i + j])
-                - float(w[at.PLR + at.ROW * i + j])
-                - float(w[at.PLR + at.ROW * j + i])
+                float(w[lay.PLL + lay.ROW * i + j])
+                + float(w[lay.PRR + lay.ROW * i + j])
+                - float(w[lay.PLR + lay.ROW * i + j])
+                - float(w[lay.PLR + lay.ROW * j + i])
                 for j in range(3)
             ]
             for i in range(3)
@@ -88,7 +104,7 @@ class JointEstimate:
         """Return H P H' (m, m) of up to three rows, each {error state: coefficient}."""
         self._collect(rows)
         m = len(rows)
-        return self._space.w[at.S_S : at.S_S + 9].reshape(3, 3)[:m, :m].copy()
+        return self._space.w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
 
     def update(
         self, rows: Sequence[Row], innovation: Sequence[float], variances: Sequence[float]
@@ -103,11 +119,11 @@ class JointEstimate:
         self._collect(rows)
         m = len(rows)
         for i in range(m):
-            if w[at.S_S + 4 * i] < ROUNDING * self._magnitude(rows[i]):
-                w[at.S_S + 4 * i] = 0.0
-            w[at.S_S + 4 * i] += variances[i]
-            w[at.S_Y + i] = innovation[i]
-        s = w[at.S_S : at.S_S + 9].reshape(3, 3)[:m, :m].copy()
+            if w[lay.S_S + 4 * i] < ROUNDING * self._magnitude(rows[i]):
+                w[lay.S_S + 4 * i] = 0.0
+            w[lay.S_S + 4 * i] += variances[i]
+            w[lay.S_Y + i] = innovation[i]
+        s = w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
         return s, float(self._engine.correct(w, m))
 
     def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
@@ -117,31 +133,35 @@ class JointEstimate:
         ``s`` the innovation variance; ``innovation`` is predicted minus measured.
         """
         w = self._space.w
-        w[at.S_G : at.S_G + 32] = 0.0
-        w[at.S_G : at.S_G + 15] = cross[:15]
-        w[at.S_G + 16 : at.S_G + 31] = cross[15:]
-        w[at.S_S], w[at.S_Y] = s, innovation
+        right = lay.S_G + lay.SIDE
+        w[lay.S_G : lay.S_G + lay.JOINT] = 0.0
+        w[lay.S_G : lay.S_G + lay.ERRORS] = cross[: lay.ERRORS]
+        w[right : right + lay.ERRORS] = cross[lay.ERRORS :]
+        w[lay.S_S], w[lay.S_Y] = s, innovation
         return float(self._engine.correct(w, 1))
 
     def _magnitude(self, row: Row) -> float:
         """Return the greatest variance that the states of ``row`` could give together."""
         w, total = self._space.w, 0.0
         for state, coefficient in row.items():
-            start = at.PLL if state < 15 else at.PRR
-            total += abs(coefficient) * math.sqrt(max(0.0, w[start + (at.ROW + 1) * (state % 15)]))
+            start = lay.PLL if state < lay.ERRORS else lay.PRR
+            total += abs(coefficient) * math.sqrt(
+                max(0.0, w[start + lay.DIAGONAL * (state % lay.ERRORS)])
+            )
         return total * total
 
     def _collect(self, rows: Sequence[Row]) -> None:
         w = self._space.w
-        w[at.S_H : at.S_H + 96] = 0.0
+        w[lay.S_H : lay.S_H + lay.ROWS_MOST * lay.JOINT] = 0.0
         for k, row in enumerate(rows):
             for state, coefficient in row.items():
-                w[at.S_H + 32 * k + state + (state >= 15)] = coefficient
+                pad = lay.SIDE - lay.ERRORS if state >= lay.ERRORS else 0
+                w[lay.S_H + lay.JOINT * k + state + pad] = coefficient
         self._engine.collect(w, len(rows))
 
 
 def relative_row(direction: Sequence[float]) -> dict[int, float]:
     """Return the row that measures left minus right position along ``direction`` (3,)."""
-    row = {i: float(direction[i]) for i in range(3)}
-    row.update({15 + i: -float(direction[i]) for i in range(3)})
+    row = {lay.position_row(0, i): float(direction[i]) for i in range(3)}
+    row.update({lay.position_row(1, i): -float(direction[i]) for i in range(3)})
     return row

@@ -10,8 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, field, fields
-from functools import cache
-from typing import Any, Self, TypeVar, get_args, get_origin, get_type_hints
+from typing import Any, ClassVar, Self, TypeVar, get_args, get_origin, get_type_hints
 
 from .errors import ConfigError
 
@@ -89,6 +88,8 @@ def parameter(
 class Parameters:
     """Base of every parameter group; values are checked when an instance is made."""
 
+    _types: ClassVar[dict[str, type]] = {}
+
     def __init_subclass__(cls) -> None:
         """Refuse declarations whose default is not of the annotated type.
 
@@ -98,9 +99,11 @@ class Parameters:
             Naming the class, the field, its annotation and its default.
         """
         super().__init_subclass__()
+        hints = get_type_hints(cls)
+        cls._types = {name: get_origin(hint) or hint for name, hint in hints.items()}
         for name, declared in list(vars(cls).items()):
             if is_declared(declared):
-                _check_default(cls, name, declared.default)
+                _check_default(cls, name, hints[name], declared.default)
 
     def __post_init__(self) -> None:
         """Check every field against its declaration; raise :class:`ConfigError` on a misfit."""
@@ -113,7 +116,7 @@ class Parameters:
         """Yield the declared parameters, their names prefixed with ``prefix``."""
         for item in fields(cls):
             if is_declared(item):
-                kind, choices = _types(cls)[item.name], item.metadata["choices"]
+                kind, choices = cls._types[item.name], item.metadata["choices"]
                 meta = {**item.metadata, "choices": choices() if callable(choices) else choices}
                 default: Any = item.default
                 default = float(default) if kind is float else default
@@ -131,12 +134,6 @@ class Parameters:
                 )
             values[name] = check(known[name], value, prefix)
         return cls(**values)
-
-
-@cache
-def _types(cls: Any) -> dict[str, type]:
-    """Return the type of every field by its annotation; a tuple of numbers is ``tuple``."""
-    return {name: get_origin(hint) or hint for name, hint in get_type_hints(cls).items()}
 
 
 def is_declared(item: object) -> bool:
@@ -187,9 +184,8 @@ def _number(value: Any) -> Any:
     return value
 
 
-def _check_default(cls: type, name: str, default: Any) -> None:
-    """Raise TypeError when ``default`` is not what field ``name`` of ``cls`` is annotated as."""
-    kind = get_type_hints(cls)[name]
+def _check_default(cls: type, name: str, kind: Any, default: Any) -> None:
+    """Raise TypeError when ``default`` is not of ``kind``, as field ``name`` is annotated."""
     if kind in SCALARS:
         fits = type(default) is kind or (kind is float and type(default) is int)
     else:

@@ -6,9 +6,8 @@ from collections.abc import Callable, Sequence
 
 from .constraints.method import Request
 from .joint_estimate import JointEstimate, Outcome
-from .kernel import Engine
-from .kernel import layout as at
-from .kernel.workspace import Workspace
+from .kernel import Engine, Workspace
+from .kernel import layout as lay
 
 ACTIONS = 16  # constraints kept before those that no roll-back can reach are dropped
 
@@ -39,10 +38,10 @@ class RollBack:
         space, now = self._space, self._space.epoch
         firsts = []
         for foot in range(2):
-            if bits[foot] & at.STANCE_FALSE:
+            if bits[foot] & lay.STANCE_FALSE:
                 first = space.foot(foot, "N_START")
                 still = False
-            elif bits[foot] & at.SWING_FALSE:
+            elif bits[foot] & lay.SWING_FALSE:
                 first = space.foot(foot, "N_LEAVE")
                 still = True
             else:

@@ -12,15 +12,15 @@ import numpy as np
 
 from .alignment import Standstill
 from .config import TrackerConfig
-from .constraints import METHODS
-from .constraints.method import Method, Request, StancePhase
-from .gait_history import Past
+from .constraints import METHODS, Method, Request, StancePhase
+from .gait_history import GaitHistory
 from .heading import Headings, turn
+from .initial_state import InitialState
 from .joint_estimate import JointEstimate, Outcome
-from .kernel import Engine
-from .kernel import layout as at
-from .kernel.workspace import Workspace
+from .kernel import Engine, Workspace
+from .kernel import layout as lay
 from .results.events import FEET, Event, EventKind
+from .results.payloads import Levelled
 from .roll_back import RollBack
 from .samples.series import FloatArray, IntArray
 
@@ -39,23 +39,22 @@ class Session:
         aids: Sequence[Method] = (),
     ) -> None:
         """Level both feet from ``still``; ``aids`` are asked as the method is."""
-        module = METHODS[config.method]
-        known = hasattr(module, "Method")
-        self._method: Method = module.Method(config.constraint) if known else Method()
+        self._method: Method = METHODS[config.method](config.constraint)
         stance = config.stance
         memory = stance.min_stance + stance.min_swing + stance.window + 0.1
         memory += max(each.memory_s for each in (self._method, *aids))
         self._aids = aids
         self.rate_hz = rate_hz
-        self.space = Workspace(config, rate_hz, memory)
+        self.space = Workspace(rate_hz, memory)
+        self._initial = InitialState(config, self.space)
         self.phase = "standing"
-        self.headings = Headings(config.heading, self.space)
+        self.headings = Headings(config.heading, self.space, self._initial)
         self._config, self._still = config, still
         self._origin = np.zeros(3)
-        self._past = Past(self.space)
+        self._gait = GaitHistory(self.space)
         self._roll_back = RollBack(self.space)
         self._dt, self._values = np.empty(1), np.empty((1, 12))
-        self._row = np.zeros((1, at.OUT))
+        self._row = np.zeros((1, lay.OUT))
         self.use(engine)
         self._level()
 
@@ -73,7 +72,7 @@ class Session:
 
     def _level(self) -> None:
         forward = self.headings.forward
-        self.space.level(self._config, self._still.result(), self._origin, forward)
+        self._initial.level(self._still.result(), self._origin, forward)
         arm = self._method.lever_arm
         if arm is not None:
             self._estimate.place(1, self._second_sensor(arm))
@@ -95,15 +94,16 @@ class Session:
         """Have the kernel report when the method wants to know, once the heading is known."""
         limit = self._method.watch_m
         if self.headings.known:
-            self.space.w[at.C_WATCH] = limit * abs(limit)
+            self.space.w[lay.C_WATCH] = limit * abs(limit)
 
     def aligned_event(self, stamp: int) -> Event:
         """Return the event that says what the alignment found."""
-        detail = {}
-        for name, still in zip(FEET, self._still.result(), strict=True):
-            detail[f"{name}_gyro_bias"] = still.angular_rate.tolist()
-            detail[f"{name}_gravity"] = float(np.linalg.norm(still.specific_force))
-        return Event(EventKind.ALIGNED, stamp, "both", stamp, detail=detail)
+        feet = dict(zip(FEET, self._still.result(), strict=True))
+        levelled = Levelled(
+            {name: still.angular_rate.tolist() for name, still in feet.items()},
+            {name: float(np.linalg.norm(still.specific_force)) for name, still in feet.items()},
+        )
+        return Event(EventKind.ALIGNED, stamp, "both", stamp, payload=levelled)
 
     # --- running ---------------------------------------------------------------------------------
 
@@ -115,9 +115,9 @@ class Session:
         self._dt[0] = dt_s
         self._values[0] = values
         self._engine.advance(space.w, n, self._dt, self._values, 0, 1, self._row)
-        space.stamps[n[at.N_EPOCH] % space.ring] = stamp
+        space.stamps[n[lay.N_EPOCH] % space.ring] = stamp
         found: Found = []
-        if n[at.N_NOTICE]:
+        if n[lay.N_NOTICE]:
             found = self._attend()
             self._engine.emit(space.w, n, self._row, 0)
         return self._row[0].copy(), found
@@ -143,7 +143,7 @@ class Session:
             epochs = np.arange(first + tail - k, first + done - k)
             space.stamps[epochs % space.ring] = stamps[tail:done]
             k = done
-            if space.n[at.N_NOTICE]:
+            if space.n[lay.N_NOTICE]:
                 found = self._attend()
                 self._engine.emit(space.w, space.n, out, k - 1)
                 if found:
@@ -153,29 +153,29 @@ class Session:
 
     def _attend(self) -> Found:
         """Do what the newest epoch's notices ask for."""
-        notices = int(self.space.n[at.N_NOTICE])
-        bits = [notices & 15, notices >> at.NOTICE_SHIFT]
+        notices = int(self.space.n[lay.N_NOTICE])
+        bits = [notices & 15, notices >> lay.NOTICE_SHIFT]
         self._roll_back.clean_phases(bits)
         found: Found = []
         for foot in range(2):
-            if bits[foot] & at.STANCE_CONFIRMED:
+            if bits[foot] & lay.STANCE_CONFIRMED:
                 found += self._stance_confirmed(foot)
-            elif bits[foot] & at.STANCE_ENDED:
+            elif bits[foot] & lay.STANCE_ENDED:
                 found += self._stance_ended(foot)
-        if notices & at.NOTICE_WATCH:
-            found += self._constrain("both", self._method, self._method.on_epoch(self._past))
+        if notices & lay.NOTICE_WATCH:
+            found += self._constrain("both", self._method, self._method.on_epoch(self._gait))
         return found
 
     def _phase(self, foot: int, last: int) -> StancePhase:
         space = self.space
-        lag = 0.5 * (int(space.n[at.N_WINDOW]) - 1)
+        lag = 0.5 * (int(space.n[lay.N_WINDOW]) - 1)
         first = space.foot(foot, "N_START")
-        period, heading = self._past.period_s, self.headings.mean
+        period, heading = self._gait.period_s, self.headings.mean
         return StancePhase(foot, first, last, lag, space.epoch, period, heading)
 
     def _stance_confirmed(self, foot: int) -> Found:
-        stamp = self._past.stamp(self.space.foot(foot, "N_START"))
-        now = self._past.stamp(self.space.epoch)
+        stamp = self._gait.stamp(self.space.foot(foot, "N_START"))
+        now = self._gait.stamp(self.space.epoch)
         found = [Event(EventKind.STANCE_START, stamp, FEET[foot], now)]
         walking = self.phase == "walking"
         turned = self.headings.stance(self._engine, foot, now, walking)
@@ -185,7 +185,7 @@ class Session:
         found += turned
         phase = self._phase(foot, self.space.epoch)
         for method in self._askable():
-            found += self._constrain(FEET[foot], method, method.on_stance_start(phase, self._past))
+            found += self._constrain(FEET[foot], method, method.on_stance_start(phase, self._gait))
         return found
 
     def _askable(self) -> list[Method]:
@@ -195,13 +195,13 @@ class Session:
 
     def _stance_ended(self, foot: int) -> Found:
         last = self.space.foot(foot, "N_LEAVE") - 1
-        now = self._past.stamp(self.space.epoch)
-        found = [Event(EventKind.STANCE_END, self._past.stamp(last, now), FEET[foot], now)]
+        now = self._gait.stamp(self.space.epoch)
+        found = [Event(EventKind.STANCE_END, self._gait.stamp(last, now), FEET[foot], now)]
         self.phase = "walking"
-        self._past.ended[foot] = last
+        self._gait.ended[foot] = last
         phase = self._phase(foot, last)
         for method in self._askable():
-            found += self._constrain(FEET[foot], method, method.on_stance_end(phase, self._past))
+            found += self._constrain(FEET[foot], method, method.on_stance_end(phase, self._gait))
         return found
 
     def _constrain(self, foot: str, method: Method, requests: Sequence[Request]) -> Found:
@@ -216,14 +216,15 @@ class Session:
     def _event(self, foot: str, request: Request, outcome: Outcome) -> Event:
         return Event(
             request.kind,
-            self._past.stamp(request.epoch),
+            self._gait.stamp(request.epoch),
             foot,
-            self._past.stamp(self.space.epoch),
+            self._gait.stamp(self.space.epoch),
             outcome.innovation,
             outcome.S,
             outcome.nis,
             outcome.accepted,
-            outcome.detail,
+            outcome.payload,
+            outcome.reason,
         )
 
     # --- pose and gaps ---------------------------------------------------------------------------
@@ -243,21 +244,21 @@ class Session:
             found: Found = []
         else:
             found = self.headings.set_pose(self._engine, position, yaw, stamp)
-            up_m, turned = found[0].detail["shift"][2], found[0].detail["yaw"]
+            up_m, turned = found[0].turn.shift[2], found[0].turn.yaw
         for method in (*self._aids, self._method):
             method.moved(up_m, turned)
         self._roll_back.forget()
-        self.space.n[at.N_OLDEST] = self.space.epoch + 1
+        self.space.forget()
         return found
 
     def bridge(self, gap_s: float) -> Found:
         """Get over a gap in the data: nothing is known of what the feet did meanwhile."""
         space = self.space
-        last = self._past.stamp(space.epoch)
+        last = self._gait.stamp(space.epoch)
         found = [
             Event(EventKind.STANCE_END, last, FEET[foot], last)
             for foot in range(2)
-            if space.foot(foot, "N_PHASE") in (at.STANCE, at.LEAVING)
+            if space.foot(foot, "N_PHASE") in (lay.STANCE, lay.LEAVING)
         ]
         space.bridge(gap_s)
         self._roll_back.forget()

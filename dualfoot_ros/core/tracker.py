@@ -9,12 +9,14 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from .aids import AidInputs
-from .alignment import Opening
+from .alignment import FirstPairs
+from .compiler import BackgroundEngine, compiled
 from .config import TrackerConfig
 from .errors import AlignmentError, ConfigError
-from .kernel import BackgroundEngine, Engine, compiled, interpreted
-from .kernel import layout as at
+from .kernel import Engine, interpreted
+from .kernel import layout as lay
 from .results.events import FEET, Event, EventKind
+from .results.payloads import Reason
 from .results.rows import to_trajectory, turn_rows
 from .results.trajectory import Trajectory
 from .results.update import Update
@@ -58,7 +60,7 @@ class DualFootTracker:
         self._begin()
 
     def _begin(self) -> None:
-        self._opening = Opening(self.config)
+        self._first_pairs = FirstPairs(self.config)
         self._session: Session | None = None
         self._gate = PairGate()
         self._pending: list[Event] = []
@@ -82,15 +84,14 @@ class DualFootTracker:
     @property
     def complaint(self) -> str | None:
         """Why the last window of the alignment was no standstill, if it was not."""
-        return self._opening.complaint
+        return self._first_pairs.complaint
 
-    def reset(self, stamp_ns: int | None = None, reason: str = "asked for") -> None:
+    def reset(self, stamp_ns: int | None = None, reason: Reason = Reason.ASKED_FOR) -> None:
         """Forget everything but the counters and align anew."""
         self.counters["resets"] += 1
         self._begin()
         stamp = 0 if stamp_ns is None else stamp_ns
-        detail = {"reason": reason}
-        self._pending.append(Event(EventKind.RESET, stamp, "both", stamp, detail=detail))
+        self._pending.append(Event(EventKind.RESET, stamp, "both", stamp, reason=reason))
 
     def set_pose(self, position: Sequence[float], yaw: float) -> None:
         """Move and turn both tracks so that the person is at ``position`` (3,) m facing ``yaw``.
@@ -115,7 +116,7 @@ class DualFootTracker:
         stamp, values = int(pair.stamp_ns), pair.values
         refused = self._gate.refusal(stamp, values)
         if refused is TIME_JUMPED:
-            self.reset(stamp, "time jumped back")
+            self.reset(stamp, Reason.TIME_JUMPED)
         elif refused is not None:
             self.counters[refused] += 1
             return Update(stamp, self.phase, refused=refused, events=self._take_pending())
@@ -175,12 +176,14 @@ class DualFootTracker:
         return events
 
     def _align(self, stamp: int, values: FloatArray) -> None:
-        opening = self._opening
-        still = opening.add(stamp, values)
-        if opening.still is not None:
-            self.counters["alignment_restarts"] = opening.still.restarts
+        first_pairs = self._first_pairs
+        still = first_pairs.add(stamp, values)
+        if first_pairs.still is not None:
+            self.counters["alignment_restarts"] = first_pairs.still.restarts
         if still is not None:
-            self._session = Session(self.config, self._engine, still, opening.rate_hz, self._aids)
+            self._session = Session(
+                self.config, self._engine, still, first_pairs.rate_hz, self._aids
+            )
             self._pending.append(self._session.aligned_event(stamp))
 
     def _track(self, session: Session, stamp: int, dt_ns: int, values: FloatArray) -> Update:
@@ -256,7 +259,7 @@ class DualFootTracker:
     def _run(self, stamps: IntArray, values: FloatArray) -> tuple[IntArray, FloatArray, list]:
         """Feed everything; long regular stretches of walking go through the kernel at once."""
         count = len(stamps)
-        out = np.zeros((count, at.OUT))
+        out = np.zeros((count, lay.OUT))
         kept = np.zeros(count, dtype=bool)
         dts = np.diff(stamps, prepend=stamps[:1]) * 1e-9
         stops = next_irregular(regular_samples(stamps, values))

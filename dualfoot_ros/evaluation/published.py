@@ -8,7 +8,6 @@ afterwards, as :meth:`dualfoot_ros.core.DualFootTracker.run` does it.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
@@ -25,7 +24,6 @@ from ..core import (
     clean_stance,
 )
 from .frames.association import cut
-from .frames.yaw_transform import YawTransform
 
 
 def published_trajectory(
@@ -65,15 +63,6 @@ def published_trajectory(
     )
 
 
-def heading_transform(event: Event) -> YawTransform:
-    """Return what a HEADING event does to the track of its foot so far."""
-    yaw = float(event.detail["yaw"])
-    pivot, shift = np.array(event.detail["pivot"]), np.array(event.detail["shift"])
-    c, s = math.cos(yaw), math.sin(yaw)
-    turned = np.array([c * pivot[0] - s * pivot[1], s * pivot[0] + c * pivot[1], pivot[2]])
-    return YawTransform(yaw, pivot + shift - turned)
-
-
 def _since_reset(events: Iterable[Event]) -> tuple[Event, ...]:
     kept: list[Event] = []
     for event in events:
@@ -87,7 +76,7 @@ def _finished(track: FootTrajectory, events: tuple[Event, ...], foot: int) -> Fo
     for event in events:
         if event.kind is EventKind.HEADING and event.foot == FEET[foot]:
             before = track.stamp_ns < event.detected_ns
-            turned = heading_transform(event).foot(cut(track, before))
+            turned = cut(track, before).turned(event.turn)
             track = _joined(turned, cut(track, ~before))
     return replace(track, stance=clean_stance(track.stamp_ns, events, foot))
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import Alignment, FloatArray, ImuSeries, stillness
+from ..core import AlignmentConfig, FloatArray, ImuSeries, stillness
 
 
 @dataclass(frozen=True)
@@ -40,12 +40,12 @@ class Stand:
         return float(np.linalg.norm(self.specific_force))
 
 
-def first_stand(series: ImuSeries, config: Alignment | None = None) -> Stand | None:
+def first_stand(series: ImuSeries, config: AlignmentConfig | None = None) -> Stand | None:
     """Return the first run of still windows that lasts ``config.duration``, or None.
 
     Only the scatter within a window decides, not gravity: units may still be wrong.
     """
-    config = config or Alignment()
+    config = config or AlignmentConfig()
     size = max(5, round(config.window * series.rate_hz)) if len(series) > 1 else 0
     if not size or len(series) < size:
         return None

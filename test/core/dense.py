@@ -14,7 +14,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core import TrackerConfig
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import layout as lay
 
 from .harness import cross_matrix
 
@@ -71,12 +71,12 @@ class DenseFoot:
     @classmethod
     def start(cls, config: TrackerConfig, w: np.ndarray, foot: int) -> DenseFoot:
         """Start as the foot of a workspace stands."""
-        o, block = foot * at.FOOT, at.PRR if foot else at.PLL
-        lever = at.C_FOOT + foot * at.C_STRIDE + at.C_LEVER
-        three = [w[i : i + 3].copy() for i in (o + at.POS, o + at.VEL, o + at.BG, o + at.BA)]
-        P = w[block : block + at.BLOCK].reshape(15, at.ROW)[:, :15].copy()
-        C = w[o + at.ROT : o + at.ROT + 9].reshape(3, 3).copy()
-        before = [w[o + i : o + i + 3].copy() for i in (at.ALPHA, at.GAMMA, at.RATE)]
+        o, block = foot * lay.FOOT, lay.PRR if foot else lay.PLL
+        lever = lay.C_FOOT + foot * lay.C_STRIDE + lay.C_LEVER
+        three = [w[i : i + 3].copy() for i in (o + lay.POS, o + lay.VEL, o + lay.BG, o + lay.BA)]
+        P = w[block : block + lay.BLOCK].reshape(15, lay.ROW)[:, :15].copy()
+        C = w[o + lay.ROT : o + lay.ROT + 9].reshape(3, 3).copy()
+        before = [w[o + i : o + i + 3].copy() for i in (lay.ALPHA, lay.GAMMA, lay.RATE)]
         return cls(config, three[0], three[1], C, *three[2:], w[lever : lever + 3], P, *before)
 
     def propagate(self, dt: float, sample: np.ndarray) -> None:

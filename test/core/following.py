@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from dualfoot_ros.core import DualFootTracker, Event, EventKind, Trajectory
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.results.rows import turn_rows
 
 from .harness import Pairs
@@ -25,7 +25,7 @@ class Followed:
 
     def turned(self) -> np.ndarray:
         """Return the rows (N, OUT), those before each HEADING event turned by it."""
-        rows = np.array(self.rows).reshape(-1, at.OUT)
+        rows = np.array(self.rows).reshape(-1, lay.OUT)
         for event in self.events:
             if event.kind is EventKind.HEADING:
                 turn_rows(rows[: self.stamps.index(event.stamp_ns)], event)
@@ -54,11 +54,11 @@ def same_bits(followed: Followed, result: Trajectory) -> None:
     rows = followed.turned()
     assert followed.stamps == result.left.stamp_ns.tolist()
     for foot, track in enumerate((result.left, result.right)):
-        part = rows[:, foot * at.O_FOOT : (foot + 1) * at.O_FOOT]
-        assert part[:, at.O_POS : at.O_POS + 3].tobytes() == track.position.tobytes()
-        assert part[:, at.O_VEL : at.O_VEL + 3].tobytes() == track.velocity.tobytes()
-        assert part[:, at.O_QUAT : at.O_QUAT + 4].tobytes() == track.quaternion.tobytes()
-        diagonal = part[:, [at.O_COV_POS + i for i in (0, 4, 8)]]
+        part = rows[:, foot * lay.O_FOOT : (foot + 1) * lay.O_FOOT]
+        assert part[:, lay.O_POS : lay.O_POS + 3].tobytes() == track.position.tobytes()
+        assert part[:, lay.O_VEL : lay.O_VEL + 3].tobytes() == track.velocity.tobytes()
+        assert part[:, lay.O_QUAT : lay.O_QUAT + 4].tobytes() == track.quaternion.tobytes()
+        diagonal = part[:, [lay.O_COV_POS + i for i in (0, 4, 8)]]
         found = np.diagonal(track.position_covariance, axis1=1, axis2=2)
         assert np.array_equal(diagonal, found)
     assert [key(e) for e in followed.events] == [key(e) for e in result.events]

@@ -10,8 +10,9 @@ import numpy as np
 
 from dualfoot_ros.core import ImuPair, ImuSeries, TrackerConfig
 from dualfoot_ros.core.alignment import Standstill
-from dualfoot_ros.core.kernel import Engine, compiled, interpreted
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.compiler import compiled
+from dualfoot_ros.core.kernel import Engine, interpreted
+from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.core.session import Session
 from dualfoot_ros.simulation import SensorConfig, WalkConfig, simulate
@@ -102,7 +103,7 @@ def open_session(
 
 def follow(session: Session, pairs: Pairs, start: int) -> Iterator[tuple[int, list]]:
     """Run the pairs from ``start`` on, one epoch at a time; yield (epoch, events)."""
-    dts, out = pairs.dts, np.zeros((len(pairs), at.OUT))
+    dts, out = pairs.dts, np.zeros((len(pairs), lay.OUT))
     for k in range(start, len(pairs)):
         found = [
             e
@@ -114,7 +115,7 @@ def follow(session: Session, pairs: Pairs, start: int) -> Iterator[tuple[int, li
 
 def state_bits(w: np.ndarray) -> bytes:
     """Return what a snapshot holds (nominal states and covariance), as bytes."""
-    return w[: at.STATE].tobytes()
+    return w[: lay.STATE].tobytes()
 
 
 def cross_matrix(v) -> np.ndarray:

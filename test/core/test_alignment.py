@@ -15,7 +15,7 @@ from dualfoot_ros.core import (
     TrackerConfig,
 )
 from dualfoot_ros.core.alignment import Average, Standstill, Window, stillness
-from dualfoot_ros.core.config_groups import Alignment
+from dualfoot_ros.core.config_groups import AlignmentConfig
 
 from .harness import GRAVITY, Pairs, cross_matrix, open_session, simulated, standing_samples, walk
 
@@ -112,7 +112,7 @@ def test_motion_during_the_alignment_starts_it_again_and_is_counted():
 
 def stood(values: np.ndarray, rate: float = RATE) -> Standstill:
     """Return what a stand of pairs ``values`` (N, 12) gives."""
-    still = Standstill(Alignment(), GRAVITY, rate)
+    still = Standstill(AlignmentConfig(), GRAVITY, rate)
     for row in values:
         still.add(row, restart=False)
     return still
@@ -171,7 +171,7 @@ def test_still_rate_std_decides_from_where_on_windows_count_alike():
     values[300:500, 3:6] += 0.01 + 0.008 * rng.normal(size=(200, 3))
     found = []
     for floor in (1e-3, 1.0):
-        still = Standstill(Alignment(still_rate_std=floor), GRAVITY, RATE)
+        still = Standstill(AlignmentConfig(still_rate_std=floor), GRAVITY, RATE)
         for row in values:
             still.add(row, restart=False)
         found.append(still.result()[0].angular_rate.max())
@@ -242,7 +242,7 @@ def test_a_lifted_foot_is_no_part_of_the_stand():
     values = swaying(0)[0][:1000].copy()
     plain = stood(values).result()[0].angular_rate
     values[400:440, 3:6] += np.sin(2.0 * np.pi * np.arange(40) / 40.0)[:, None]
-    still = Standstill(Alignment(), GRAVITY, RATE)
+    still = Standstill(AlignmentConfig(), GRAVITY, RATE)
     seen = []
     for row in values:
         still.add(row, restart=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 
 import pytest
 from hypothesis import given, settings
@@ -128,10 +129,12 @@ def test_a_configuration_comes_back_from_its_mapping_unchanged(mapping):
     assert set(told) == set(SPECS)
 
 
-def test_every_method_has_a_module_with_a_documented_config():
-    for name, module in METHODS.items():
-        assert module.__doc__.startswith(f"``{name}``")
-        assert module.Config.__doc__
+def test_every_method_is_a_class_whose_module_names_it_and_whose_config_is_documented():
+    for name, method in METHODS.items():
+        assert method.name == name
+        assert f"``{name}``" in sys.modules[method.__module__].__doc__.splitlines()[0]
+        assert method.__doc__
+        assert method.config_class.__doc__
 
 
 def test_an_unknown_engine_is_refused_with_the_known_ones():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import EventKind, TrackerConfig
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import layout as lay
 
 from .harness import follow, open_session, walk
 
@@ -25,7 +25,7 @@ def test_p_is_symmetric_to_the_bit_and_positive_semi_definite_through_a_walk(std
     pairs = walk()
     session, start = open_session(config, pairs)
     w, applied, least = session.space.w, 0, 0.0
-    left, right = (w[o : o + at.BLOCK].reshape(15, at.ROW) for o in (at.PLL, at.PRR))
+    left, right = (w[o : o + lay.BLOCK].reshape(15, lay.ROW) for o in (lay.PLL, lay.PRR))
     for epoch, events in follow(session, pairs, start):
         applied += sum(e.kind is EventKind.CONSTRAINT and e.accepted for e in events)
         for block in (left, right):

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core import ConfigError, DualFootTracker, EventKind, ImuPair, TrackerConfig
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import layout as lay
 
 from .following import live
 from .harness import Pairs, quick_engine, simulated, walk
@@ -102,18 +102,18 @@ def test_a_subscriber_who_turns_the_rows_it_has_gets_what_run_gives():
         c, s = math.cos(yaw), math.sin(yaw)
         turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
         before = np.array(followed.stamps) < event.stamp_ns
-        rows = np.array(followed.rows)[:, at.O_FOOT * foot : at.O_FOOT * (foot + 1)]
-        found, velocity = rows[:, :3].copy(), rows[:, at.O_VEL : at.O_VEL + 3].copy()
+        rows = np.array(followed.rows)[:, lay.O_FOOT * foot : lay.O_FOOT * (foot + 1)]
+        found, velocity = rows[:, :3].copy(), rows[:, lay.O_VEL : lay.O_VEL + 3].copy()
         found[before] = (found[before] - pivot) @ turn.T + pivot + event.detail["shift"]
         velocity[before] = velocity[before] @ turn.T
-        attitude = Rotation.from_quat(rows[before, at.O_QUAT : at.O_QUAT + 4])
+        attitude = Rotation.from_quat(rows[before, lay.O_QUAT : lay.O_QUAT + 4])
         turned = (Rotation.from_rotvec([0.0, 0.0, yaw]) * attitude).as_matrix()
         assert np.allclose(found, track.position, rtol=0.0, atol=1e-12)
         assert np.allclose(velocity, track.velocity, rtol=0.0, atol=1e-12)
         expected = Rotation.from_quat(track.quaternion[before]).as_matrix()
         assert np.allclose(turned, expected, rtol=0.0, atol=1e-12)
         for k in (0, int(before.sum()) - 1):
-            cells = rows[k, at.O_COV_POS : at.O_COV_POS + 9]
+            cells = rows[k, lay.O_COV_POS : lay.O_COV_POS + 9]
             P = turn @ cells.reshape(3, 3) @ turn.T
             assert np.allclose(P, track.position_covariance[k], rtol=1e-9, atol=1e-15)
 

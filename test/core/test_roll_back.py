@@ -11,20 +11,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dualfoot_ros.core import EventKind, TrackerConfig
-from dualfoot_ros.core.constraints.idc import Config, Method
+from dualfoot_ros.core.constraints.idc import Idc, IdcConfig
 from dualfoot_ros.core.constraints.method import Request
 from dualfoot_ros.core.joint_estimate import Outcome
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import layout as lay
 
 from .harness import Pairs, follow, open_session, quick_engine, standing_samples, state_bits, walk
 
 AS_IS = {"heading.source": "sensor"}
 
 
-class Late(Method):
+class Late(Idc):
     """Asks for idc's correction at a moment so many epochs before the end of each stance."""
 
-    def __init__(self, config: Config, back: Sequence[int]) -> None:
+    def __init__(self, config: IdcConfig, back: Sequence[int]) -> None:
         super().__init__(config)
         self.memory_s = 1.5
         self.asked: list[Request] = []
@@ -38,7 +38,7 @@ class Late(Method):
         return (self.asked[-1],)
 
 
-def session_with(method: Method, pairs: Pairs):
+def session_with(method: Idc, pairs: Pairs):
     """Return a session of the base filter that asks ``method``, and its first sample."""
     config = TrackerConfig.from_mapping({"method": "idc", "idc.kappa": 0.0, **AS_IS})
     session, start = open_session(config, pairs)
@@ -55,7 +55,7 @@ def session_with(method: Method, pairs: Pairs):
 def test_a_constraint_at_an_earlier_moment_equals_having_applied_it_then(back, std):
     """With moments 60 and 5 epochs back in turn, one constraint falls between another's two."""
     pairs = walk(20.0)
-    method = Late(Config(distance=0.05, distance_std=std), back)
+    method = Late(IdcConfig(distance=0.05, distance_std=std), back)
     session, start = session_with(method, pairs)
     events = [e for _, es in follow(session, pairs, start) for e in es]
     accepted = [e for e in events if e.kind is EventKind.CONSTRAINT and e.accepted]
@@ -85,7 +85,7 @@ class Refusing(Late):
 
 def test_a_refused_constraint_leaves_the_state_as_it_was_to_the_bit():
     pairs = walk(15.0)
-    session, start = session_with(Refusing(Config(), (30,)), pairs)
+    session, start = session_with(Refusing(IdcConfig(), (30,)), pairs)
     events = [e for _, es in follow(session, pairs, start) for e in es]
     assert sum(e.kind is EventKind.CONSTRAINT for e in events) > 10
     plain, start = open_session(TrackerConfig.from_mapping({"method": "zupt", **AS_IS}), pairs)
@@ -134,9 +134,9 @@ def cleaned(still: np.ndarray) -> np.ndarray:
 def as_if_known(session, before: np.ndarray, phases: np.ndarray, foot: int) -> bytes:
     """Return the state after the session's samples had ``phases`` been known all along."""
     w, n = session.space.w.copy(), session.space.n.copy()
-    w[: at.STATE] = before
+    w[: lay.STATE] = before
     mask = ~(1 << foot)
-    flags = n[at.N_FLAGS : at.N_FLAGS + len(phases)]
+    flags = n[lay.N_FLAGS : lay.N_FLAGS + len(phases)]
     flags[:] = (flags & mask) | (phases.astype(np.int64) << foot)
     quick_engine().rerun(w, n, 0, len(phases) - 1)
     return state_bits(w)
@@ -150,11 +150,11 @@ def shake(runs: list[int], foot: int):
     session, start = open_session(config, pairs)
     space = session.space
     assert space.ring > len(still) + 2
-    before, seen, false = space.w[: at.STATE].copy(), [], 0
+    before, seen, false = space.w[: lay.STATE].copy(), [], 0
     for _ in follow(session, pairs, start):
-        seen.append(space.w[at.GLRT_LEFT + foot] < config.stance.threshold)
-        bits = int(space.n[at.N_NOTICE]) >> (foot * at.NOTICE_SHIFT)
-        false += bool(bits & (at.STANCE_FALSE | at.SWING_FALSE))
+        seen.append(space.w[lay.GLRT_LEFT + foot] < config.stance.threshold)
+        bits = int(space.n[lay.N_NOTICE]) >> (foot * lay.NOTICE_SHIFT)
+        false += bool(bits & (lay.STANCE_FALSE | lay.SWING_FALSE))
     return session, before, np.array(seen), false
 
 
@@ -163,7 +163,7 @@ def shake(runs: list[int], foot: int):
 def test_the_state_is_as_if_the_phases_had_been_known_beforehand(runs, foot):
     session, before, seen, _ = shake(runs, foot)
     space, phases = session.space, cleaned(seen)
-    undecided = {at.LANDING: "N_START", at.LEAVING: "N_LEAVE"}.get(space.foot(foot, "N_PHASE"))
+    undecided = {lay.LANDING: "N_START", lay.LEAVING: "N_LEAVE"}.get(space.foot(foot, "N_PHASE"))
     if undecided is not None:  # the newest phase may yet turn out to be too short
         phases[space.foot(foot, undecided) :] = seen[space.foot(foot, undecided) :]
     assert as_if_known(session, before, phases, foot) == state_bits(space.w)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import DualFootTracker, TrackerConfig
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import layout as lay
 
 from .harness import Pairs, open_session, quick_engine, simulated, walk
 
@@ -20,11 +20,11 @@ def test_standing_still_drifts_less_than_a_centimetre_in_a_minute(seed):
     """Without the refinement that a tracker does while it stands: the filter alone must hold."""
     pairs = standing(seed, 64.0)
     session, start = open_session(TrackerConfig(), pairs)
-    out = np.zeros((len(pairs), at.OUT))
+    out = np.zeros((len(pairs), lay.OUT))
     for _ in session.steps(pairs.stamps, pairs.dts, pairs.values, (start, len(pairs)), out):
         pass
     for foot in range(2):
-        track = out[start:, at.O_FOOT * foot : at.O_FOOT * foot + 3]
+        track = out[start:, lay.O_FOOT * foot : lay.O_FOOT * foot + 3]
         assert np.linalg.norm(track - track[0], axis=1).max() < 0.01
 
 
@@ -47,13 +47,13 @@ def test_the_covariance_of_a_standing_foot_covers_its_drift():
     for seed in range(12):
         pairs = standing(seed, 34.0)
         session, start = open_session(TrackerConfig(), pairs)
-        out = np.zeros((len(pairs), at.OUT))
+        out = np.zeros((len(pairs), lay.OUT))
         for _ in session.steps(pairs.stamps, pairs.dts, pairs.values, (start, len(pairs)), out):
             pass
         for foot in range(2):
             drift = (
                 session._estimate.position(foot)
-                - out[start, at.O_FOOT * foot : at.O_FOOT * foot + 3]
+                - out[start, lay.O_FOOT * foot : lay.O_FOOT * foot + 3]
             )
             P = session.space.covariance()[15 * foot : 15 * foot + 3, 15 * foot : 15 * foot + 3]
             nees.append(float(drift @ np.linalg.solve(P, drift)))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import TrackerConfig
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import layout as lay
 
 from .dense import DenseFoot
 from .harness import open_session, walk
@@ -23,11 +23,11 @@ def settled_walk(config: TrackerConfig, seconds: float):
     space = session.space
     feet = [DenseFoot.start(config, space.w, foot) for foot in range(2)]
     lag = space.ring - 2
-    out = np.zeros((len(pairs), at.OUT))
+    out = np.zeros((len(pairs), lay.OUT))
     flags, states = {}, {}
 
     def keep(epoch: int) -> None:
-        flags[epoch] = int(space.n[at.N_FLAGS + epoch % space.ring])
+        flags[epoch] = int(space.n[lay.N_FLAGS + epoch % space.ring])
         if epoch < space.epoch:
             states[epoch] = space.snapshot(epoch + 1).copy()
 
@@ -38,7 +38,7 @@ def settled_walk(config: TrackerConfig, seconds: float):
             keep(space.epoch - lag)
     for epoch in range(max(0, space.epoch - lag), space.epoch + 1):
         keep(epoch)
-    states[space.epoch] = space.w[: at.STATE].copy()
+    states[space.epoch] = space.w[: lay.STATE].copy()
     return pairs, start, feet, flags, states, session
 
 
@@ -69,18 +69,18 @@ def test_the_joint_filter_without_constraint_equals_two_filters(lever_arm):
 
 def differences(dense: DenseFoot, state: np.ndarray, foot: int) -> np.ndarray:
     """Return greatest differences of position (m), of the rest of the state, of P (relative)."""
-    o, block = foot * at.FOOT, at.PRR if foot else at.PLL
+    o, block = foot * lay.FOOT, lay.PRR if foot else lay.PLL
     rest = [
-        dense.v - state[o + at.VEL : o + at.VEL + 3],
-        dense.C.ravel() - state[o + at.ROT : o + at.ROT + 9],
-        dense.bg - state[o + at.BG : o + at.BG + 3],
-        dense.ba - state[o + at.BA : o + at.BA + 3],
+        dense.v - state[o + lay.VEL : o + lay.VEL + 3],
+        dense.C.ravel() - state[o + lay.ROT : o + lay.ROT + 9],
+        dense.bg - state[o + lay.BG : o + lay.BG + 3],
+        dense.ba - state[o + lay.BA : o + lay.BA + 3],
     ]
-    P = state[block : block + at.BLOCK].reshape(15, at.ROW)[:, :15]
+    P = state[block : block + lay.BLOCK].reshape(15, lay.ROW)[:, :15]
     std = np.sqrt(np.diag(dense.P))
     return np.array(
         [
-            np.abs(dense.r - state[o + at.POS : o + at.POS + 3]).max(),
+            np.abs(dense.r - state[o + lay.POS : o + lay.POS + 3]).max(),
             np.abs(np.concatenate(rest)).max(),
             np.abs((P - dense.P) / np.outer(std, std)).max(),
         ]
@@ -91,4 +91,4 @@ def test_without_a_constraint_the_feet_never_become_correlated():
     config = TrackerConfig(method="zupt")
     *_, session = settled_walk(config, 12.0)
     assert session.phase == "walking"
-    assert not session.space.w[at.PLR : at.PLR + at.BLOCK].any()
+    assert not session.space.w[lay.PLR : lay.PLR + lay.BLOCK].any()

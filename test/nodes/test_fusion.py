@@ -9,12 +9,18 @@ from nav_msgs.msg import Odometry, Path
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
-from dualfoot_ros.core import DualFootTracker, ImuPair, TrackerConfig
+from dualfoot_ros.core import (
+    DualFootTracker,
+    ImuPair,
+    TrackerConfig,
+    quaternion_matrix,
+    yaw_quaternion,
+)
 from dualfoot_ros.core.results.events import EventKind
 from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.ros import qos
-from dualfoot_ros.nodes.ros.messages import pose_of, rotation_matrix, to_ns, yaw_quaternion
+from dualfoot_ros.nodes.ros.messages import pose_of, to_ns
 from dualfoot_ros.recording import read_bag
 from dualfoot_ros.settings.nodes import Input as InputOptions
 from dualfoot_ros.timing import align
@@ -163,7 +169,7 @@ def test_the_twist_is_the_change_of_the_pose_in_the_child_frame(bench, pairs):
     change = np.gradient(position, seconds, axis=0)
     velocity = np.array(
         [
-            rotation_matrix(pose_of(m.pose.pose)[1])
+            quaternion_matrix(pose_of(m.pose.pose)[1])
             @ [m.twist.twist.linear.x, m.twist.twist.linear.y, m.twist.twist.linear.z]
             for m in messages
         ]

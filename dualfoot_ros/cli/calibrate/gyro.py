@@ -89,9 +89,9 @@ def _check_outputs(args: argparse.Namespace) -> None:
 
 def _noise(found: dict[str, GyroFit]) -> dict[str, float]:
     """Return the parameters that every sensor tells, those of the worst one."""
-    from ...core import Noise
+    from ...core import NoiseConfig
 
-    told = [fit.noise(Noise().bias_time) for fit in found.values()]
+    told = [fit.noise(NoiseConfig().bias_time) for fit in found.values()]
     common_names = [name for name in told[0] if all(name in other for other in told)]
     return {name: max(other[name] for other in told) for name in common_names}
 

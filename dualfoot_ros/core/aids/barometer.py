@@ -13,10 +13,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..config_groups import Aids
+from ..config_groups import AidsConfig
 from ..constraints.method import Gait, Method, Request, StancePhase
-from ..joint_estimate import JointEstimate, Outcome
+from ..joint_estimate import JointEstimate, Outcome, nothing_done
+from ..kernel.layout import position_row
 from ..results.events import FEET, EventKind
+from ..results.payloads import PressureHeight, Reason
 from .pressure import PressureLog
 
 WORN = (*FEET, "both")  # where a sensor is: "both" serves both feet
@@ -29,7 +31,7 @@ class Barometer(Method):
     needs_heading = False
 
     def __init__(
-        self, config: Aids, logs: Mapping[str, PressureLog], counters: Counter[str]
+        self, config: AidsConfig, logs: Mapping[str, PressureLog], counters: Counter[str]
     ) -> None:
         """Read ``logs``, one for each of WORN; count stances without pressure in ``counters``."""
         self._config, self._logs, self._counters = config, logs, counters
@@ -67,15 +69,14 @@ class Barometer(Method):
 
     def _apply(self, estimate: JointEstimate, foot: int, worn: str, height: float) -> Outcome:
         z = float(estimate.position(foot)[2])
-        detail = {"aid": "barometer", "worn": worn, "height": height}
+        measured = PressureHeight(worn, height)
         if (foot, worn) not in self._zero:
             self._zero[foot, worn] = height - z
-            nothing = np.empty(0), np.empty((0, 0)), float("nan"), False
-            return Outcome(*nothing, {**detail, "reason": "reference of the first stance"})
+            return nothing_done(measured, Reason.FIRST_STANCE)
         innovation = z - (height - self._zero[foot, worn])
-        rows, variance = [{15 * foot + 2: 1.0}], self._config.barometer_std**2
+        rows, variance = [{position_row(foot, 2): 1.0}], self._config.barometer_std**2
         s, nis = estimate.update(rows, [innovation], [variance])
-        return Outcome(np.array([innovation]), s, nis, True, detail)
+        return Outcome(np.array([innovation]), s, nis, True, measured)
 
     def moved(self, up_m: float, turned: float) -> None:
         """Move the reference heights with the track."""

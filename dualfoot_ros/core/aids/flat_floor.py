@@ -10,11 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..config_groups import Aids
+from ..config_groups import AidsConfig
 from ..constraints.method import Gait, Method, Request, StancePhase
 from ..joint_estimate import JointEstimate, Outcome
+from ..kernel.layout import position_row
 from ..results.events import EventKind
+from ..results.payloads import Details
 from ..samples.series import FloatArray
+
+HEIGHT = Details({"aid": "flat_floor", "what": "height"})
+PLACE = Details({"aid": "flat_floor", "what": "place"})
 
 
 class FlatFloor(Method):
@@ -22,7 +27,7 @@ class FlatFloor(Method):
 
     needs_heading = False
 
-    def __init__(self, config: Aids) -> None:
+    def __init__(self, config: AidsConfig) -> None:
         """Use ``config.floor_std`` and ``config.static_std``."""
         self._config = config
         self._stood: list[FloatArray | None] = [None, None]
@@ -52,15 +57,15 @@ class FlatFloor(Method):
 
     def _height(self, estimate: JointEstimate, foot: int) -> Outcome:
         innovation = estimate.position(foot)[2:] - self._floor_m
-        rows = [{15 * foot + 2: 1.0}]
+        rows = [{position_row(foot, 2): 1.0}]
         s, nis = estimate.update(rows, innovation.tolist(), [self._config.floor_std**2])
-        return Outcome(innovation, s, nis, True, {"aid": "flat_floor", "what": "height"})
+        return Outcome(innovation, s, nis, True, HEIGHT)
 
     def _place(self, estimate: JointEstimate, foot: int, place: FloatArray) -> Outcome:
         innovation = (estimate.position(foot) - place)[:2]
-        rows = [{15 * foot: 1.0}, {15 * foot + 1: 1.0}]
+        rows = [{position_row(foot, axis): 1.0} for axis in (0, 1)]
         s, nis = estimate.update(rows, innovation.tolist(), [self._config.static_std**2] * 2)
-        return Outcome(innovation, s, nis, True, {"aid": "flat_floor", "what": "place"})
+        return Outcome(innovation, s, nis, True, PLACE)
 
     def moved(self, up_m: float, turned: float) -> None:
         """Move the floor with the track."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..config_groups import Aids
+from ..config_groups import AidsConfig
 from ..constraints.method import Method
 from ..errors import ConfigError
 from ..results.events import FEET
@@ -24,7 +24,7 @@ Vector = Sequence[float] | FloatArray
 class AidInputs:
     """Air pressure and magnetic field of a tracker, and the aids that use them."""
 
-    def __init__(self, config: Aids, counters: Counter[str]) -> None:
+    def __init__(self, config: AidsConfig, counters: Counter[str]) -> None:
         """Count in ``counters`` what is taken and refused."""
         self._config, self._counters = config, counters
         self._pressure = {worn: PressureLog() for worn in WORN}

@@ -26,21 +26,21 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
-from ..config_groups import Aids
+from ..config_groups import AidsConfig
 from ..constraints.method import Gait, Method, Request, StancePhase
-from ..joint_estimate import JointEstimate, Outcome
+from ..joint_estimate import JointEstimate, Outcome, nothing_done
+from ..kernel.layout import attitude_row
 from ..results.events import FEET, EventKind
+from ..results.payloads import FieldDirection, Reason
 from ..samples.series import FloatArray
 from .field import FieldLog, NavigationField, mean_field
 
 AROUND_NS = 100_000_000  # of the middle of a stance the field is averaged over
 LONGEST_S = 1.2  # a middle farther back than half of it cannot be gone back to
 LEAST_LEVEL = 0.1  # share of the field; one that is steeper has no direction
-E_ATT = 6  # attitude among the error states of a foot, eq. (4) of Liu et al. 2023
 
 
 class MagneticHeading(Method):
@@ -49,7 +49,9 @@ class MagneticHeading(Method):
     memory_s = 0.5 * LONGEST_S
     needs_heading = True
 
-    def __init__(self, config: Aids, logs: Mapping[str, FieldLog], counters: Counter[str]) -> None:
+    def __init__(
+        self, config: AidsConfig, logs: Mapping[str, FieldLog], counters: Counter[str]
+    ) -> None:
         """Read ``logs``, one for each foot; count in ``counters`` the stances that gave none."""
         self._config, self._logs, self._counters = config, logs, counters
         self._reference: list[NavigationField | None] = [None, None]
@@ -87,16 +89,17 @@ class MagneticHeading(Method):
     ) -> Outcome:
         x, y, z = (estimate.rotation(foot) @ measured).tolist()
         field, reference = NavigationField(x, y, z), self._reference[foot]
+        direction = FieldDirection(foot, (x, y, z), field.angle)
         if reference is None:
-            return _nothing(foot, field, "reference of the first stances")
+            return nothing_done(direction, Reason.FIRST_STANCES)
         if not self._alike(field, reference):
-            return _nothing(foot, field, "disturbed")
+            return nothing_done(direction, Reason.DISTURBED_FIELD)
         if not trusted:
-            return _nothing(foot, field, "after a disturbance")
+            return nothing_done(direction, Reason.AFTER_DISTURBANCE)
         innovation = math.remainder(field.angle - reference.angle, math.tau)
         row = heading_row(foot, field)
         s, nis = estimate.update([row], [innovation], [self._config.magnetic_std**2])
-        return Outcome(np.array([innovation]), s, nis, True, _detail(foot, field))
+        return Outcome(np.array([innovation]), s, nis, True, direction)
 
     def _alike(self, field: NavigationField, reference: NavigationField) -> bool:
         if field.level < LEAST_LEVEL * field.norm:
@@ -108,11 +111,13 @@ class MagneticHeading(Method):
 
     def note(self, outcome: Outcome) -> None:
         """Learn the reference from the first stances that agree; count those that are refused."""
-        foot = int(outcome.detail["foot"])
-        alike = outcome.detail.get("reason") != "disturbed"
+        direction = outcome.payload
+        if not isinstance(direction, FieldDirection):
+            return
+        foot, alike = direction.foot, outcome.reason is not Reason.DISTURBED_FIELD
         self._in_a_row[foot] = self._in_a_row[foot] + 1 if alike else 0
         if self._reference[foot] is None:
-            self._learn(foot, NavigationField(*outcome.detail["field"]))
+            self._learn(foot, NavigationField(*direction.field))
         elif not outcome.accepted:
             self._counters["stances_in_disturbed_field"] += 1
 
@@ -137,15 +142,6 @@ class MagneticHeading(Method):
 
 def heading_row(foot: int, field: NavigationField) -> dict[int, float]:
     """Return the row of the direction of ``field`` for ``foot`` 0 or 1."""
-    attitude, steepness = 15 * foot + E_ATT, field.z / field.level**2
-    return {attitude: field.x * steepness, attitude + 1: field.y * steepness, attitude + 2: -1.0}
-
-
-def _nothing(foot: int, field: NavigationField, reason: str) -> Outcome:
-    detail = {**_detail(foot, field), "reason": reason}
-    return Outcome(np.empty(0), np.empty((0, 0)), float("nan"), False, detail)
-
-
-def _detail(foot: int, field: NavigationField) -> dict[str, Any]:
-    vector = (field.x, field.y, field.z)
-    return {"aid": "magnetic_heading", "foot": foot, "field": vector, "angle": field.angle}
+    x, y, z = (attitude_row(foot, axis) for axis in range(3))
+    steepness = field.z / field.level**2
+    return {x: field.x * steepness, y: field.y * steepness, z: -1.0}

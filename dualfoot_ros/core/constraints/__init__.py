@@ -1,36 +1,29 @@
-"""The methods by name.  Each is one module with a ``Config`` and, unless idle, a ``Method``."""
+"""The constraint methods, and all that is needed to write another one."""
 
-from types import ModuleType
+from ..joint_estimate import JointEstimate, Outcome, nothing_done, relative_row
+from ..kernel.layout import attitude_row, gyro_bias_row, position_row, velocity_row
+from ..results.payloads import Details, DistanceLimit, Passing, Reason
+from .method import Gait, Method, Request, StancePhase
+from .method_registry import ENTRY_POINTS, METHODS, MethodRegistry
 
-from . import (
-    idc,
-    max_distance,
-    max_distance_projection,
-    mdmd_ckf,
-    mdmd_ekf,
-    mdmd_ukf,
-    min_distance,
-    rigid_pair,
-    spacing_vector,
-    step_length,
-    varying_distance,
-    zupt,
-)
-
-METHODS: dict[str, ModuleType] = {
-    module.__name__.rpartition(".")[2]: module
-    for module in (
-        zupt,
-        max_distance,
-        min_distance,
-        mdmd_ekf,
-        mdmd_ukf,
-        mdmd_ckf,
-        idc,
-        max_distance_projection,
-        varying_distance,
-        spacing_vector,
-        step_length,
-        rigid_pair,
-    )
-}
+__all__ = [
+    "ENTRY_POINTS",
+    "METHODS",
+    "Details",
+    "DistanceLimit",
+    "Gait",
+    "JointEstimate",
+    "Method",
+    "MethodRegistry",
+    "Outcome",
+    "Passing",
+    "Reason",
+    "Request",
+    "StancePhase",
+    "attitude_row",
+    "gyro_bias_row",
+    "nothing_done",
+    "position_row",
+    "relative_row",
+    "velocity_row",
+]

@@ -24,11 +24,11 @@ from dataclasses import dataclass
 from ..joint_estimate import JointEstimate, relative_row
 from ..parameters import parameter
 from .distance_solvers import Matrix, Vector, exact, iterate
-from .minimum_moment import AtMinimumDistance, MomentParameters
+from .minimum_moment import AtMinimumDistance, MomentConfig
 
 
 @dataclass(frozen=True)
-class Config(MomentParameters):
+class IdcConfig(MomentConfig):
     """Parameters of the iterative distance constraint."""
 
     solver: str = parameter(
@@ -37,10 +37,12 @@ class Config(MomentParameters):
     iterations: int = parameter(5, "iterations of the iterative solver", minimum=1, maximum=50)
 
 
-class Method(AtMinimumDistance):
+class Idc(AtMinimumDistance):
     """Projects the joint state onto the minimum distance."""
 
-    config: Config
+    name = "idc"
+    config_class = IdcConfig
+    config: IdcConfig
 
     def correct(self, estimate: JointEstimate, r: Vector, p: Matrix, target: float) -> None:
         """Project by the chosen solver."""

@@ -18,6 +18,7 @@ import math
 import numpy as np
 
 from ..joint_estimate import Outcome
+from ..results.payloads import Passing
 from ..samples.series import FloatArray
 
 PRIOR_M = 0.15  # feet side by side, both sensors on the insteps
@@ -93,10 +94,10 @@ class Spacing:
 
     def note(self, outcome: Outcome) -> None:
         """Learn from a constraint that was applied, or found not to be needed."""
-        if self.learner is not None and "separation" in outcome.detail:
-            before = np.array(outcome.detail["separation"][:2])
-            after = np.array(outcome.detail["separation_after"][:2])
-            self.learner.add(before, after, outcome.detail["heading"])
+        passing = outcome.payload
+        if self.learner is not None and isinstance(passing, Passing):
+            before, after = np.array(passing.before[:2]), np.array(passing.after[:2])
+            self.learner.add(before, after, passing.heading)
 
     def moved(self) -> None:
         """Take note that the tracks were turned or moved."""

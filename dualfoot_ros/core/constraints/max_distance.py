@@ -14,13 +14,13 @@ import numpy as np
 
 from ..joint_estimate import JointEstimate, Outcome, relative_row
 from ..parameters import Parameters, parameter
+from ..results.payloads import DistanceLimit
 from .distance_solvers import exact, norm, quadratic
-from .method import Gait, Request
-from .method import Method as Base
+from .method import Gait, Method, Request
 
 
 @dataclass(frozen=True)
-class Config(Parameters):
+class MaxDistanceConfig(Parameters):
     """Parameters of the maximum-distance constraint."""
 
     bound: float = parameter(
@@ -34,10 +34,14 @@ class Config(Parameters):
     )
 
 
-class Method(Base):
+class MaxDistance(Method):
     """Projects onto the bound when it is exceeded."""
 
-    def __init__(self, config: Config) -> None:
+    name = "max_distance"
+    config_class = MaxDistanceConfig
+    config: MaxDistanceConfig
+
+    def __init__(self, config: MaxDistanceConfig) -> None:
         """Use ``config``."""
         self.config = config
         self.watch_m = config.bound
@@ -58,11 +62,11 @@ class Method(Base):
         distance = norm(r)
         variance = quadratic(r, p) / distance**2
         s, error = variance + std * std, distance - bound
-        detail = {"distance": distance, "target": bound}
-        accepted = error > 0.0 and variance > 1e-12
+        accepted, after = error > 0.0 and variance > 1e-12, None
         if accepted:
             direction, push, noise = exact(r, p, bound, std)
             estimate.update([relative_row(direction)], [push], [noise])
-            detail["distance_after"] = norm(estimate.relative_position())
+            after = norm(estimate.relative_position())
         nis = error * error / s if s > 0.0 else float("nan")
-        return Outcome(np.array([error]), np.array([[s]]), nis, accepted, detail)
+        limit = DistanceLimit(distance, bound, after)
+        return Outcome(np.array([error]), np.array([[s]]), nis, accepted, limit)

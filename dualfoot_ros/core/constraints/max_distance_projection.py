@@ -14,12 +14,12 @@ import numpy as np
 
 from ..joint_estimate import JointEstimate, Outcome
 from ..parameters import Parameters, parameter
-from .method import Gait, Request
-from .method import Method as Base
+from ..results.payloads import DistanceLimit
+from .method import Gait, Method, Request
 
 
 @dataclass(frozen=True)
-class Config(Parameters):
+class MaxDistanceProjectionConfig(Parameters):
     """Parameters of the maximum-distance projection."""
 
     bound: float = parameter(
@@ -27,10 +27,14 @@ class Config(Parameters):
     )
 
 
-class Method(Base):
+class MaxDistanceProjection(Method):
     """Pulls the moving foot back at every epoch beyond the bound."""
 
-    def __init__(self, config: Config) -> None:
+    name = "max_distance_projection"
+    config_class = MaxDistanceProjectionConfig
+    config: MaxDistanceProjectionConfig
+
+    def __init__(self, config: MaxDistanceProjectionConfig) -> None:
         """Use ``config``."""
         self.config = config
         self.watch_m = config.bound
@@ -53,6 +57,6 @@ def pull(estimate: JointEstimate, moving: int, bound: float) -> Outcome:
     accepted = distance > bound
     if accepted:
         estimate.place(moving, standing + bound / distance * away)
-    detail = {"distance": distance, "target": bound, "distance_after": min(distance, bound)}
+    limit = DistanceLimit(distance, bound, min(distance, bound))
     innovation = np.array([distance - bound])
-    return Outcome(innovation, np.full((1, 1), np.nan), float("nan"), accepted, detail)
+    return Outcome(innovation, np.full((1, 1), np.nan), float("nan"), accepted, limit)

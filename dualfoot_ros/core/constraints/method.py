@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 from ..joint_estimate import JointEstimate, Outcome
+from ..parameters import Parameters
 from ..results.events import EventKind
 from ..samples.series import FloatArray
 from .learnt_spacing import Spacing
@@ -88,18 +89,34 @@ class Gait(Protocol):
 class Method:
     """Base of the methods: asks for nothing.
 
-    ``memory_s`` is how far back its requests may reach; ``watch_m`` the distance of the feet
-    beyond which ``on_epoch`` is called (infinity: never, below zero: at every epoch);
-    ``lever_arm`` (3,) m places the second sensor relative to the first where both are on one shoe;
-    ``spacing`` is the distance of the feet side by side, where the method needs it.
-    ``needs_heading``: it is not asked before the heading of the walk is known.
+    Attributes
+    ----------
+    name : what selects the method, and the name of its group of parameters
+    config_class : class of that group; an instance of it is what the method is made from
+    sensors_on_one_shoe : "left" and "right" are two sensors on the same foot
+    dimensions : rows of its measurement, the degrees of freedom of its NIS
+    memory_s : s, how far back its requests may reach
+    needs_heading : it is not asked before the heading of the walk is known
+    watch_m : m, distance of the feet beyond which `on_epoch` is called (infinity: never, below
+        zero: at every epoch)
+    lever_arm : (3,) m from the first sensor to the second, where both are on one shoe
+    spacing : distance of the feet side by side, where the method needs it
     """
 
+    name: ClassVar[str] = ""
+    config_class: ClassVar[type[Parameters]] = Parameters
+    sensors_on_one_shoe: ClassVar[bool] = False
+    config: Parameters
+    dimensions: int = 1
     memory_s: float = 0.0
     needs_heading: bool = True
     watch_m: float = math.inf
     lever_arm: FloatArray | None = None
     spacing: Spacing | None = None
+
+    def __init__(self, config: Parameters) -> None:
+        """Use ``config``, an instance of ``config_class``."""
+        self.config = config
 
     def on_stance_start(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
         """Return what follows from a stance that has been confirmed."""

@@ -13,13 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parameters import parameter
-from .mdmd_ekf import Method as EkfMethod
+from .mdmd import MdmdEkf
 from .method import Gait, StancePhase
-from .minimum_moment import MomentParameters
+from .minimum_moment import MomentConfig
 
 
 @dataclass(frozen=True)
-class Config(MomentParameters):
+class MinDistanceConfig(MomentConfig):
     """Parameters of the classical minimum-distance constraint; kappa is not used."""
 
     interval: float = parameter(
@@ -27,12 +27,14 @@ class Config(MomentParameters):
     )
 
 
-class Method(EkfMethod):
+class MinDistance(MdmdEkf):
     """Looks for the minimum in the positions since the last constraint."""
 
-    config: Config
+    name = "min_distance"
+    config_class = MinDistanceConfig
+    config: MinDistanceConfig
 
-    def __init__(self, config: Config) -> None:
+    def __init__(self, config: MinDistanceConfig) -> None:
         """Use ``config``."""
         super().__init__(config)
         self.memory_s = config.max_stance

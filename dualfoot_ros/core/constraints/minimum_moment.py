@@ -10,19 +10,19 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from ..joint_estimate import JointEstimate, Outcome
 from ..parameters import Parameters, parameter
+from ..results.payloads import DistanceLimit, Passing, Reason
 from .distance_solvers import Matrix, Vector, norm, quadratic
 from .learnt_spacing import Spacing
 from .method import Gait, Method, Request, StancePhase
 
 
 @dataclass(frozen=True)
-class MomentParameters(Parameters):
+class MomentConfig(Parameters):
     """What every method at the minimum-distance moment has in common."""
 
     distance: float = parameter(
@@ -55,9 +55,10 @@ class MomentParameters(Parameters):
 class AtMinimumDistance(Method):
     """Asks for one constraint at the minimum-distance moment of every stance of a walk."""
 
+    config: MomentConfig
     spacing: Spacing
 
-    def __init__(self, config: MomentParameters) -> None:
+    def __init__(self, config: MomentConfig) -> None:
         """Use ``config``."""
         self.config = config
         self.spacing = Spacing(config.distance)
@@ -112,20 +113,18 @@ class AtMinimumDistance(Method):
         error = distance - target
         nis = error * error / s if s > 0.0 else math.nan
         accepted = error > 0.0 and variance > 1e-12
-        detail: dict[str, Any] = {"distance": distance, "target": target, "heading": heading}
-        moved = [0.0, 0.0, 0.0]
+        moved, distance_after, reason = [0.0, 0.0, 0.0], None, None
         if accepted:
             before = estimate.relative_position()
             self.correct(estimate, r, p, target)
             after = estimate.relative_position()
             moved = [b - a for a, b in zip(before, after, strict=True)]
-            detail["distance_after"] = norm(after)
+            distance_after = norm(after)
         else:
-            within = error <= 0.0
-            detail["reason"] = "distance within c0" if within else "no uncertainty"
-        detail["separation"] = r
-        detail["separation_after"] = [a + b for a, b in zip(r, moved, strict=True)]
-        return Outcome(np.array([error]), np.array([[s]]), nis, accepted, detail)
+            reason = Reason.DISTANCE_WITHIN_C0 if error <= 0.0 else Reason.NO_UNCERTAINTY
+        limit = DistanceLimit(distance, target, distance_after)
+        passing = Passing(limit, heading, r, [a + b for a, b in zip(r, moved, strict=True)])
+        return Outcome(np.array([error]), np.array([[s]]), nis, accepted, passing, reason)
 
     def correct(self, estimate: JointEstimate, r: Vector, p: Matrix, target: float) -> None:
         """Bring ``estimate`` to ``target`` m; ``r`` (3,) is the separation, ``p`` its (3, 3)."""

@@ -19,20 +19,22 @@ innovation covariance.)  The paper gives m = (0.01, 0.01, 0) m right-front-up.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..joint_estimate import JointEstimate, Outcome
+from ..kernel.layout import attitude_row, gyro_bias_row, position_row, velocity_row
 from ..parameters import Parameters, parameter
+from ..results.payloads import Details
+from ..rotation import skew
 from ..samples.series import FloatArray
-from .method import Gait, Request
-from .method import Method as Base
+from .method import Gait, Method, Request
 
 
 @dataclass(frozen=True)
-class Config(Parameters):
+class RigidPairConfig(Parameters):
     """Parameters of the rigid pair."""
 
     lever_arm: tuple[float, float, float] = parameter(
@@ -51,12 +53,17 @@ class Config(Parameters):
     every: int = parameter(1, "epochs from one constraint to the next", minimum=1, maximum=100)
 
 
-class Method(Base):
+class RigidPair(Method):
     """Constrains both differences at every epoch."""
 
+    name = "rigid_pair"
+    config_class = RigidPairConfig
+    config: RigidPairConfig
+    sensors_on_one_shoe = True
+    dimensions = 3
     watch_m = -1.0
 
-    def __init__(self, config: Config) -> None:
+    def __init__(self, config: RigidPairConfig) -> None:
         """Use ``config``."""
         self.config = config
         self._arm = np.array(config.lever_arm)
@@ -87,14 +94,15 @@ class Method(Base):
         rotation = estimate.rotation(0)
         moved = rotation @ np.cross(rate, self._arm)
         velocity = estimate.velocity(1) - estimate.velocity(0) - moved
-        rows = difference_rows(3, moved)
+        rows = difference_rows(velocity_row, moved)
         add_bias(rows, share * rotation @ skew(self._arm), sensors)
         estimate.update(rows, velocity.tolist(), [self.config.velocity_std**2] * 3)
         arm = estimate.rotation(0) @ self._arm
         position = estimate.position(1) - estimate.position(0) - arm
-        rows = difference_rows(0, arm)
+        rows = difference_rows(position_row, arm)
         s, nis = estimate.update(rows, position.tolist(), [self.config.position_std**2] * 3)
-        return Outcome(position, s, nis, True, {"velocity_innovation": velocity.tolist()})
+        details = Details({"velocity_innovation": velocity.tolist()})
+        return Outcome(position, s, nis, True, details)
 
     def _same_axes(self, estimate: JointEstimate) -> bool:
         """Return whether both sensors have the same axes, so that their rates can be averaged."""
@@ -102,17 +110,19 @@ class Method(Base):
         return float(np.trace(relative)) > 3.0 - 0.01
 
 
-def difference_rows(state: int, vector: FloatArray) -> list[dict[int, float]]:
+def difference_rows(
+    state: Callable[[int, int], int], vector: FloatArray
+) -> list[dict[int, float]]:
     """Return the rows of (second minus first) position or velocity minus ``vector``.
 
-    ``state`` is 0 for position, 3 for velocity, ``vector`` (3,) what the first sensor's attitude
+    ``state`` is `position_row` or `velocity_row`, ``vector`` (3,) what the first sensor's attitude
     turned, whose error is [vector x] phi.
     """
     attitude = -skew(vector)
     rows = []
     for i in range(3):
-        row = {15 + state + i: 1.0, state + i: -1.0}
-        row.update({6 + j: float(attitude[i, j]) for j in range(3)})
+        row = {state(1, i): 1.0, state(0, i): -1.0}
+        row.update({attitude_row(0, j): float(attitude[i, j]) for j in range(3)})
         rows.append(row)
     return rows
 
@@ -121,9 +131,4 @@ def add_bias(rows: list[dict[int, float]], slope: FloatArray, sensors: Sequence[
     """Add the derivative (3, 3) by the gyro bias of each sensor whose rate was used."""
     for i, row in enumerate(rows):
         for sensor in sensors:
-            row.update({15 * sensor + 9 + j: float(slope[i, j]) for j in range(3)})
-
-
-def skew(v: FloatArray) -> FloatArray:
-    """Return the matrix [v x]."""
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+            row.update({gyro_bias_row(sensor, j): float(slope[i, j]) for j in range(3)})

@@ -22,14 +22,14 @@ import numpy as np
 
 from ..joint_estimate import JointEstimate, Outcome, relative_row
 from ..parameters import Parameters, parameter
+from ..results.payloads import DistanceLimit, Passing
 from .learnt_spacing import Spacing
-from .method import Gait, Request, StancePhase
-from .method import Method as Base
+from .method import Gait, Method, Request, StancePhase
 from .varying_distance import feet_adjacent
 
 
 @dataclass(frozen=True)
-class Config(Parameters):
+class SpacingVectorConfig(Parameters):
     """Parameters of the spacing vector constraint."""
 
     spacing: float = parameter(
@@ -64,14 +64,19 @@ class Config(Parameters):
     )
 
 
-class Method(Base):
+class SpacingVector(Method):
     """Asks for the spacing vector at the middle of every stance of a walk."""
+
+    name = "spacing_vector"
+    config_class = SpacingVectorConfig
+    config: SpacingVectorConfig
 
     spacing: Spacing
 
-    def __init__(self, config: Config) -> None:
+    def __init__(self, config: SpacingVectorConfig) -> None:
         """Use ``config``."""
         self.config = config
+        self.dimensions = 2 if config.variant == "vector" else 1
         self.spacing = Spacing(config.spacing)
         self.memory_s = config.max_stance
 
@@ -119,12 +124,11 @@ class Method(Base):
             innovation = np.array([float(r @ left) - spacing])
         variances = [max(config.spacing_std**2, 1e-12)] * len(rows)
         s, nis = estimate.update(rows, innovation.tolist(), variances)
-        detail = {
-            "distance": float(np.sqrt((r**2).sum())),
-            "target": spacing,
-            "lateral": float(r @ left),
-            "heading": heading,
-            "separation": r.tolist(),
-            "separation_after": estimate.relative_position(),
-        }
-        return Outcome(innovation, s, nis, True, detail)
+        passing = Passing(
+            DistanceLimit(float(np.sqrt((r**2).sum())), spacing),
+            heading,
+            r.tolist(),
+            estimate.relative_position(),
+            lateral=float(r @ left),
+        )
+        return Outcome(innovation, s, nis, True, passing)

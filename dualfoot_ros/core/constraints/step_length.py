@@ -13,14 +13,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..joint_estimate import JointEstimate, Outcome
+from ..joint_estimate import JointEstimate, Outcome, nothing_done
+from ..kernel.layout import position_row
 from ..parameters import Parameters, parameter
-from .method import Gait, Request
-from .method import Method as Base
+from ..results.payloads import DistanceLimit, Reason
+from .method import Gait, Method, Request
 
 
 @dataclass(frozen=True)
-class Config(Parameters):
+class StepLengthConfig(Parameters):
     """Parameters of the step-length constraint."""
 
     body_height: float = parameter(
@@ -48,10 +49,15 @@ def step_length(body_height: float) -> float:
     return 2.789 * body_height - 3.897
 
 
-class Method(Base):
+class StepLength(Method):
     """Observes the swinging foot on the sphere about the standing one."""
 
-    def __init__(self, config: Config) -> None:
+    name = "step_length"
+    config_class = StepLengthConfig
+    config: StepLengthConfig
+    dimensions = 3
+
+    def __init__(self, config: StepLengthConfig) -> None:
         """Use ``config``."""
         self.config = config
         self.watch_m = config.threshold_m
@@ -69,14 +75,13 @@ class Method(Base):
         bound = self.config.threshold_m
         away = estimate.position(swinging) - estimate.position(1 - swinging)
         distance = float(np.sqrt((away**2).sum()))
-        detail = {"distance": distance, "target": bound}
         if distance <= bound:
-            nothing = np.zeros(3), np.zeros((3, 3)), 0.0, False
-            return Outcome(*nothing, {**detail, "reason": "distance within the bound"})
+            limit = DistanceLimit(distance, bound)
+            return nothing_done(limit, Reason.DISTANCE_WITHIN_BOUND, self.dimensions)
         innovation = away * (1.0 - bound / distance)  # predicted minus virtual position
-        rows = [{15 * swinging + i: 1.0} for i in range(3)]
+        rows = [{position_row(swinging, i): 1.0} for i in range(3)]
         variances = [self.config.position_std**2] * 3
         s, nis = estimate.update(rows, innovation.tolist(), variances)
         left = estimate.position(0) - estimate.position(1)
-        detail["distance_after"] = float(np.sqrt((left**2).sum()))
-        return Outcome(innovation, s, nis, True, detail)
+        limit = DistanceLimit(distance, bound, float(np.sqrt((left**2).sum())))
+        return Outcome(innovation, s, nis, True, limit)

@@ -18,12 +18,11 @@ import numpy as np
 
 from ..parameters import Parameters, parameter
 from .max_distance_projection import pull
-from .method import Gait, Request, StancePhase
-from .method import Method as Base
+from .method import Gait, Method, Request, StancePhase
 
 
 @dataclass(frozen=True)
-class Config(Parameters):
+class VaryingDistanceConfig(Parameters):
     """Parameters of the varying distance constraint."""
 
     maximum: float = parameter(
@@ -40,10 +39,14 @@ class Config(Parameters):
     )
 
 
-class Method(Base):
+class VaryingDistance(Method):
     """Bounds the distance over each moving period, once the foot has landed."""
 
-    def __init__(self, config: Config) -> None:
+    name = "varying_distance"
+    config_class = VaryingDistanceConfig
+    config: VaryingDistanceConfig
+
+    def __init__(self, config: VaryingDistanceConfig) -> None:
         """Use ``config``."""
         self.config = config
         self.memory_s = config.max_swing

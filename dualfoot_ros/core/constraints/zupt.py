@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from ..parameters import Parameters
+from .method import Method
 
 
-@dataclass(frozen=True)
-class Config(Parameters):
-    """The base has no parameters of its own."""
+class ZuptOnly(Method):
+    """Asks for no constraint; the base has no parameters of its own."""
+
+    name = "zupt"

@@ -1,5 +1,16 @@
-"""The filter's kernel: one Python source, interpreted or compiled with the same bits."""
+"""The filter's kernel: one Python source on flat arrays, made to be compiled as it stands."""
 
-from .engine import BackgroundEngine, Engine, compiled, interpreted
+from . import layout
+from .engine import ENTRIES, MODULES, Engine, interpreted, kernel_functions
+from .workspace import Workspace, joint_covariance
 
-__all__ = ["BackgroundEngine", "Engine", "compiled", "interpreted"]
+__all__ = [
+    "ENTRIES",
+    "MODULES",
+    "Engine",
+    "Workspace",
+    "interpreted",
+    "joint_covariance",
+    "kernel_functions",
+    "layout",
+]

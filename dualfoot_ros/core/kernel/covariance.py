@@ -12,10 +12,20 @@ from .layout import (
     C_Q_BA,
     C_Q_BG,
     C_Q_VEL,
+    DIAGONAL,
+    E_ATT,
+    E_BA,
+    E_BG,
+    E_VEL,
     PLL,
     PLR,
     PRR,
     ROW,
+    ROWS_ATT,
+    ROWS_BA,
+    ROWS_BG,
+    ROWS_POS,
+    ROWS_VEL,
     S_A,
     S_B,
     S_CDT,
@@ -27,10 +37,10 @@ def add_noise(w, block, dt):
     """Add half of the process noise of one epoch to the diagonal of a foot's block."""
     h = 0.5 * dt
     for i in range(3):
-        w[block + (ROW + 1) * (3 + i)] += w[C_Q_VEL] * h
-        w[block + (ROW + 1) * (6 + i)] += w[C_Q_ATT] * h
-        w[block + (ROW + 1) * (9 + i)] += w[C_Q_BG] * h
-        w[block + (ROW + 1) * (12 + i)] += w[C_Q_BA] * h
+        w[block + DIAGONAL * (E_VEL + i)] += w[C_Q_VEL] * h
+        w[block + DIAGONAL * (E_ATT + i)] += w[C_Q_ATT] * h
+        w[block + DIAGONAL * (E_BG + i)] += w[C_Q_BG] * h
+        w[block + DIAGONAL * (E_BA + i)] += w[C_Q_BA] * h
 
 
 def apply_transition(w, source, target, dt):
@@ -38,6 +48,7 @@ def apply_transition(w, source, target, dt):
 
     Phi is given by S_CDT (R_nb dt) and S_SF (f_n dt) of the foot just mechanized.
     """
+    # f_n dt and R_nb dt: the blocks of F, eq. (6), that are neither zero nor the identity
     fx = w[S_SF]
     fy = w[S_SF + 1]
     fz = w[S_SF + 2]
@@ -50,37 +61,42 @@ def apply_transition(w, source, target, dt):
     c20 = w[S_CDT + 6]
     c21 = w[S_CDT + 7]
     c22 = w[S_CDT + 8]
-    m = 1.0 - dt * w[C_BIAS_RATE]
+    m = 1.0 - dt * w[C_BIAS_RATE]  # first-order Markov biases
     for j in range(ROW):
         p = source + j
         q = target + j
-        v0 = w[p + 48]
-        v1 = w[p + 64]
-        v2 = w[p + 80]
-        a0 = w[p + 96]
-        a1 = w[p + 112]
-        a2 = w[p + 128]
-        g0 = w[p + 144]
-        g1 = w[p + 160]
-        g2 = w[p + 176]
-        b0 = w[p + 192]
-        b1 = w[p + 208]
-        b2 = w[p + 224]
-        w[q] = w[p] + dt * v0
-        w[q + 16] = w[p + 16] + dt * v1
-        w[q + 32] = w[p + 32] + dt * v2
-        w[q + 48] = v0 + (fy * a2 - fz * a1) + (c00 * b0 + c01 * b1 + c02 * b2)
-        w[q + 64] = v1 + (fz * a0 - fx * a2) + (c10 * b0 + c11 * b1 + c12 * b2)
-        w[q + 80] = v2 + (fx * a1 - fy * a0) + (c20 * b0 + c21 * b1 + c22 * b2)
-        w[q + 96] = a0 - (c00 * g0 + c01 * g1 + c02 * g2)
-        w[q + 112] = a1 - (c10 * g0 + c11 * g1 + c12 * g2)
-        w[q + 128] = a2 - (c20 * g0 + c21 * g1 + c22 * g2)
-        w[q + 144] = m * g0
-        w[q + 160] = m * g1
-        w[q + 176] = m * g2
-        w[q + 192] = m * b0
-        w[q + 208] = m * b1
-        w[q + 224] = m * b2
+        # every row is read before any is written: source and target may be the same block
+        v0 = w[p + ROWS_VEL]
+        v1 = w[p + ROWS_VEL + ROW]
+        v2 = w[p + ROWS_VEL + 2 * ROW]
+        a0 = w[p + ROWS_ATT]
+        a1 = w[p + ROWS_ATT + ROW]
+        a2 = w[p + ROWS_ATT + 2 * ROW]
+        g0 = w[p + ROWS_BG]
+        g1 = w[p + ROWS_BG + ROW]
+        g2 = w[p + ROWS_BG + 2 * ROW]
+        b0 = w[p + ROWS_BA]
+        b1 = w[p + ROWS_BA + ROW]
+        b2 = w[p + ROWS_BA + 2 * ROW]
+        # position: dr' = v
+        w[q + ROWS_POS] = w[p + ROWS_POS] + dt * v0
+        w[q + ROWS_POS + ROW] = w[p + ROWS_POS + ROW] + dt * v1
+        w[q + ROWS_POS + 2 * ROW] = w[p + ROWS_POS + 2 * ROW] + dt * v2
+        # velocity: dv' = f_n x phi + R_nb b_a
+        w[q + ROWS_VEL] = v0 + (fy * a2 - fz * a1) + (c00 * b0 + c01 * b1 + c02 * b2)
+        w[q + ROWS_VEL + ROW] = v1 + (fz * a0 - fx * a2) + (c10 * b0 + c11 * b1 + c12 * b2)
+        w[q + ROWS_VEL + 2 * ROW] = v2 + (fx * a1 - fy * a0) + (c20 * b0 + c21 * b1 + c22 * b2)
+        # attitude: phi' = -R_nb b_g
+        w[q + ROWS_ATT] = a0 - (c00 * g0 + c01 * g1 + c02 * g2)
+        w[q + ROWS_ATT + ROW] = a1 - (c10 * g0 + c11 * g1 + c12 * g2)
+        w[q + ROWS_ATT + 2 * ROW] = a2 - (c20 * g0 + c21 * g1 + c22 * g2)
+        # biases: b' = -b / tau
+        w[q + ROWS_BG] = m * g0
+        w[q + ROWS_BG + ROW] = m * g1
+        w[q + ROWS_BG + 2 * ROW] = m * g2
+        w[q + ROWS_BA] = m * b0
+        w[q + ROWS_BA + ROW] = m * b1
+        w[q + ROWS_BA + 2 * ROW] = m * b2
 
 
 def transpose(w, source, target):
@@ -106,11 +122,12 @@ def propagate_foot(w, foot, dt):
     foot's from the right.
     """
     block = PLL if foot == 0 else PRR
+    # eq. (8): Phi (P + Q dt/2) Phi' + Q dt/2, as (Phi (Phi P)')'
     add_noise(w, block, dt)
     apply_transition(w, block, S_A, dt)
     transpose(w, S_A, S_B)
     apply_transition(w, S_B, S_A, dt)
-    mirror(w, S_A, block)
+    mirror(w, S_A, block)  # one triangle is computed, so P stays symmetric to the bit
     add_noise(w, block, dt)
     if foot == 0:
         apply_transition(w, PLR, S_A, dt)

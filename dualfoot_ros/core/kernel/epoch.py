@@ -11,6 +11,9 @@ from .covariance import propagate_foot
 from .detector import detect
 from .layout import (
     C_WATCH,
+    E_ATT,
+    E_POS,
+    E_VEL,
     FLAG_STILL,
     FOOT,
     N_EPOCH,
@@ -54,7 +57,10 @@ from .strapdown import mechanize
 
 
 def filter_epoch(w, n, epoch):
-    """Run the filter over a stored epoch: eqs (1)-(3), (7)-(11) and, in stance, (12)."""
+    """Run the filter over a stored epoch: eqs (1)-(3), (7)-(11) and, in stance, (12).
+
+    Both feet are propagated before either is corrected: a correction moves both.
+    """
     i = epoch % n[N_RING]
     sample = RINGS + SAMPLE * i
     dt = w[sample]
@@ -65,15 +71,15 @@ def filter_epoch(w, n, epoch):
         x = w[o]
         y = w[o + 1]
         z = w[o + 2]
-        mechanize(w, foot, dt, sample + 1 + 6 * foot)
-        propagate_foot(w, foot, dt)
+        mechanize(w, foot, dt, sample + 1 + 6 * foot)  # eqs (1)-(3)
+        propagate_foot(w, foot, dt)  # eqs (7)-(11), with the attitude before the step
         if (still >> foot) & 1:  # a standing foot stays where it is
             w[o] = x
             w[o + 1] = y
             w[o + 2] = z
     for foot in range(2):
         if (flags >> foot) & 1:
-            zupt(w, foot, (still >> foot) & 1 == 1)
+            zupt(w, foot, (still >> foot) & 1 == 1)  # eq. (12)
         else:
             for k in range(ZUPT_INFO):
                 w[Z_LEFT + foot * ZUPT_INFO + k] = 0.0
@@ -129,7 +135,7 @@ def advance(w, n, dts, samples, start, stop, out):
         w[o] = dts[k]
         for j in range(12):
             w[o + 1 + j] = samples[k, j]
-        save(w, n, epoch)
+        save(w, n, epoch)  # the state before the epoch: where a roll-back begins
         left, left_notice = detect(w, n, 0)
         right, right_notice = detect(w, n, 1)
         flags = 0
@@ -179,9 +185,9 @@ def emit(w, n, out, k):
         for i in range(3):
             for j in range(3):
                 m = 3 * i + j
-                out[k, o + O_COV_POS + m] = w[block + ROW * i + j]
-                out[k, o + O_COV_VEL + m] = w[block + ROW * (3 + i) + 3 + j]
-                out[k, o + O_COV_ATT + m] = w[block + ROW * (6 + i) + 6 + j]
+                out[k, o + O_COV_POS + m] = w[block + ROW * (E_POS + i) + E_POS + j]
+                out[k, o + O_COV_VEL + m] = w[block + ROW * (E_VEL + i) + E_VEL + j]
+                out[k, o + O_COV_ATT + m] = w[block + ROW * (E_ATT + i) + E_ATT + j]
         for i in range(ZUPT_INFO):
             out[k, o + O_ZUPT + i] = w[Z_LEFT + foot * ZUPT_INFO + i]
     for i in range(3):

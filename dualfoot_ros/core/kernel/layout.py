@@ -25,6 +25,13 @@ STATE = PLR + BLOCK  # size of a snapshot
 
 # error state of one foot, eq. (4): position, velocity, attitude, gyro bias, accelerometer bias
 E_POS, E_VEL, E_ATT, E_BG, E_BA = 0, 3, 6, 9, 12
+ERRORS = 15  # error states of one foot
+ROWS_POS = ROW * E_POS  # from the start of a covariance block to the rows of each of them
+ROWS_VEL = ROW * E_VEL
+ROWS_ATT = ROW * E_ATT
+ROWS_BG = ROW * E_BG
+ROWS_BA = ROW * E_BA
+DIAGONAL = ROW + 1  # from an element of the diagonal to the next
 
 # --- constants, set when the tracker is aligned --------------------------------------------------
 C_GRAVITY = STATE
@@ -38,8 +45,8 @@ C_ZUPT_RATE_VAR = C_GRAVITY + 7  # (m/s per rad/s)^2
 C_GLRT_FORCE = C_GRAVITY + 8  # 1 / sigma_a^2
 C_GLRT_RATE = C_GRAVITY + 9  # 1 / sigma_w^2
 C_GLRT_THRESHOLD = C_GRAVITY + 10
-C_ZUPT_STILL_VAR = C_GRAVITY + 12  # (m/s)^2, once a stance has lasted
 C_WATCH = C_GRAVITY + 11  # squared distance of the feet beyond which a method wants to know, m^2
+C_ZUPT_STILL_VAR = C_GRAVITY + 12  # (m/s)^2, once a stance has lasted
 C_FOOT = C_GRAVITY + 16  # then per foot:
 C_STRIDE = 8
 C_LEVER = 0  # sensor to pivot of the foot, body frame, m
@@ -49,18 +56,23 @@ C_STILL_NORM = 6  # standstill specific force norm, m/s^2
 # --- scratch -------------------------------------------------------------------------------------
 S_A = C_FOOT + 2 * C_STRIDE  # a 15x16 block
 S_B = S_A + BLOCK  # another
-S_G = S_B + BLOCK  # P H', three columns of 32 (left 0..14, right 16..30)
-S_S = S_G + 96  # innovation covariance, 3x3
-S_Y = S_S + 9  # innovation
-S_H = S_Y + 3  # measurement matrix, three rows of 32
-S_DX = S_H + 96  # estimated error state, 32
-S_CDT = S_DX + 32  # R_nb dt, 3x3
+SIDE = ROW  # error state of one foot in a vector of both: 15 and one pad
+JOINT = 2 * SIDE  # error state of both feet, left then right
+ROWS_MOST = 3  # rows of a measurement
+S_G = S_B + BLOCK  # P H', a column of JOINT a row of the measurement
+S_S = S_G + ROWS_MOST * JOINT  # innovation covariance, 3x3
+S_Y = S_S + ROWS_MOST * ROWS_MOST  # innovation
+S_H = S_Y + ROWS_MOST  # measurement matrix, rows of JOINT
+S_DX = S_H + ROWS_MOST * JOINT  # estimated error state of both feet
+S_CDT = S_DX + JOINT  # R_nb dt, 3x3
 S_SF = S_CDT + 9  # velocity increment in navigation axes, 3
 S_ROTATION = S_SF + 3  # a 3x3 rotation increment
 S_TMP = S_ROTATION + 9  # a 3x3
 
 # --- what the last epoch was, for the output row ------------------------------------------------
-ZUPT_INFO = 13  # innovation 3, S row-major 9, NIS
+ZUPT_INFO = 13  # innovation 3, then:
+Z_S = 3  # S, 3x3
+Z_NIS = 12
 Z_LEFT = S_TMP + 9
 Z_RIGHT = Z_LEFT + ZUPT_INFO
 GLRT_LEFT = Z_RIGHT + ZUPT_INFO
@@ -107,6 +119,26 @@ O_COV_ATT = 32
 O_ZUPT = 41  # innovation 3, S 9, NIS
 O_RELATIVE = 2 * O_FOOT  # covariance of left minus right position, 3x3
 OUT = O_RELATIVE + 9
+
+
+def position_row(foot: int, axis: int) -> int:
+    """Return the number of the error state "position of ``foot`` along ``axis``", 0 to 29."""
+    return ERRORS * foot + E_POS + axis
+
+
+def velocity_row(foot: int, axis: int) -> int:
+    """Return the number of the error state "velocity of ``foot`` along ``axis``", 0 to 29."""
+    return ERRORS * foot + E_VEL + axis
+
+
+def attitude_row(foot: int, axis: int) -> int:
+    """Return the number of the error state "attitude of ``foot`` about ``axis``", 0 to 29."""
+    return ERRORS * foot + E_ATT + axis
+
+
+def gyro_bias_row(foot: int, axis: int) -> int:
+    """Return the number of the error state "gyro bias of ``foot`` about ``axis``", 0 to 29."""
+    return ERRORS * foot + E_BG + axis
 
 
 def workspace_size(ring: int) -> int:

@@ -28,6 +28,7 @@ def rotation_increment(w, x, y, z):
     """Write exp([r x]) of the rotation vector (x, y, z) rad to S_ROTATION, as in eq. (1)."""
     q = x * x + y * y + z * z
     if q < 0.49:  # series: the same bits on every platform
+        # sin(r) / r and (1 - cos(r)) / r^2 in q = r^2, to the last bit for r < 0.7 rad
         a = 1.0 - q / 6.0 * (
             1.0
             - q
@@ -106,6 +107,7 @@ def mechanize(w, foot, dt, sample):
     attitude before the step, for the covariance.
     """
     o = foot * FOOT
+    # increments over the interval: gamma of velocity, alpha of rotation
     gx = (w[sample] - w[o + BA]) * dt
     gy = (w[sample + 1] - w[o + BA + 1]) * dt
     gz = (w[sample + 2] - w[o + BA + 2]) * dt
@@ -121,22 +123,24 @@ def mechanize(w, foot, dt, sample):
     qx = w[o + GAMMA]
     qy = w[o + GAMMA + 1]
     qz = w[o + GAMMA + 2]
+    # v_sf of eq. (2): rotation within the interval, and the two-sample sculling term
     t = 1.0 / 12.0
     sx = gx + 0.5 * (ay * gz - az * gy) + t * (py * gz - pz * gy + qy * az - qz * ay)
     sy = gy + 0.5 * (az * gx - ax * gz) + t * (pz * gx - px * gz + qz * ax - qx * az)
     sz = gz + 0.5 * (ax * gy - ay * gx) + t * (px * gy - py * gx + qx * ay - qy * ax)
     for i in range(9):
         w[S_CDT + i] = w[o + ROT + i] * dt
-    for i in range(3):
+    for i in range(3):  # R_nb of the epoch before, as in eq. (2)
         r = o + ROT + 3 * i
         w[S_SF + i] = w[r] * sx + w[r + 1] * sy + w[r + 2] * sz
-    for i in range(3):
+    for i in range(3):  # eqs (2), (3)
         before = w[o + VEL + i]
         after = before + w[S_SF + i]
         if i == 2:
             after = after - w[C_GRAVITY] * dt
         w[o + VEL + i] = after
         w[o + POS + i] = w[o + POS + i] + 0.5 * (before + after) * dt
+    # eq. (1), rho with the two-sample coning term
     rotation_increment(
         w,
         ax + t * (py * az - pz * ay),

@@ -1,6 +1,9 @@
 """Turning and moving a foot's track: heading is a gauge, so this is exact at any time."""
 
 from .layout import (
+    E_ATT,
+    E_POS,
+    E_VEL,
     FOOT,
     PLL,
     PLR,
@@ -12,25 +15,25 @@ from .layout import (
 )
 
 
-def turn_vector(w, at, stride, c, s):
-    """Turn the vector with elements at ``at``, ``at + stride`` about z by (cos, sin) = (c, s)."""
-    x = w[at]
-    y = w[at + stride]
-    w[at] = c * x - s * y
-    w[at + stride] = s * x + c * y
+def turn_vector(w, index, stride, c, s):
+    """Turn the vector at ``index``, ``index + stride`` about z; (c, s) = (cos, sin)."""
+    x = w[index]
+    y = w[index + stride]
+    w[index] = c * x - s * y
+    w[index + stride] = s * x + c * y
 
 
 def turn_rows(w, block, c, s):
     """Turn the position, velocity and attitude rows of a 15x15 block."""
     for j in range(15):
-        for e in range(0, 9, 3):
+        for e in (E_POS, E_VEL, E_ATT):
             turn_vector(w, block + ROW * e + j, ROW, c, s)
 
 
 def turn_columns(w, block, c, s):
     """Turn the position, velocity and attitude columns of a 15x15 block."""
     for i in range(15):
-        for e in range(0, 9, 3):
+        for e in (E_POS, E_VEL, E_ATT):
             turn_vector(w, block + ROW * i + e, 1, c, s)
 
 
@@ -41,13 +44,13 @@ def symmetrise(w, block):
             w[block + ROW * j + i] = w[block + ROW * i + j]
 
 
-def turn(w, at, foot, c, s, pivot, shift):
+def turn(w, state, foot, c, s, pivot, shift):
     """Turn the track of ``foot`` about the vertical through ``pivot`` (2,), then ``shift`` (3,).
 
-    ``at`` is the index of the state (0, or that of a snapshot).  Nominal states and covariance
+    ``state`` is the index of the state (0, or that of a snapshot).  Nominal states and covariance
     are turned exactly.
     """
-    o = at + foot * FOOT
+    o = state + foot * FOOT
     w[o + POS] -= pivot[0]
     w[o + POS + 1] -= pivot[1]
     turn_vector(w, o + POS, 1, c, s)
@@ -57,11 +60,11 @@ def turn(w, at, foot, c, s, pivot, shift):
     turn_vector(w, o + VEL, 1, c, s)
     for j in range(3):
         turn_vector(w, o + ROT + j, 3, c, s)
-    block = at + (PLL if foot == 0 else PRR)
+    block = state + (PLL if foot == 0 else PRR)
     turn_rows(w, block, c, s)
     turn_columns(w, block, c, s)
     symmetrise(w, block)
     if foot == 0:
-        turn_rows(w, at + PLR, c, s)
+        turn_rows(w, state + PLR, c, s)
     else:
-        turn_columns(w, at + PLR, c, s)
+        turn_columns(w, state + PLR, c, s)

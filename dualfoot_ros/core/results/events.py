@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..samples.series import FloatArray
+from .payloads import NO_DETAILS, Payload, YawTurn, named_values
 
 FEET = ("left", "right")
 
@@ -42,7 +42,8 @@ class Event:
     S : (m, m) innovation covariance
     nis : normalised innovation squared, innovation' S^-1 innovation
     accepted : False when a gate or a rule refused to apply it
-    detail : further named values (distance before and after, correction size, reason ...)
+    payload : further values, of a type that tells what they are
+    reason : why it was refused, or why the tracker started anew
     """
 
     kind: EventKind
@@ -53,4 +54,23 @@ class Event:
     S: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
     nis: float = float("nan")
     accepted: bool = True
-    detail: Mapping[str, Any] = field(default_factory=dict)
+    payload: Payload = NO_DETAILS
+    reason: StrEnum | None = None
+
+    @property
+    def detail(self) -> dict[str, Any]:
+        """Further values by name, for files and people: those of the payload, and the reason."""
+        return named_values(self.payload, self.reason)
+
+    @property
+    def turn(self) -> YawTurn:
+        """The turn that a HEADING event tells.
+
+        Raises
+        ------
+        TypeError
+            When the event tells none.
+        """
+        if not isinstance(self.payload, YawTurn):
+            raise TypeError(f"an event of kind {self.kind} tells no turn")
+        return self.payload

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from ..kernel import layout as at
+from ..kernel import layout as lay
 from ..samples.series import FloatArray, IntArray
 from .events import FEET, Event, EventKind
+from .payloads import YawTurn
 from .trajectory import FootTrajectory, Trajectory
 
 
@@ -20,8 +20,8 @@ def matrices(cells: FloatArray) -> FloatArray:
 
 def zupt_event(row: FloatArray, foot: int, stamp_ns: int) -> Event | None:
     """Return the zero-velocity update in a row, if there is one."""
-    o = foot * at.O_FOOT + at.O_ZUPT
-    if not row[foot * at.O_FOOT + at.O_STANCE]:
+    o = foot * lay.O_FOOT + lay.O_ZUPT
+    if not row[foot * lay.O_FOOT + lay.O_STANCE]:
         return None
     return Event(
         EventKind.ZUPT,
@@ -41,38 +41,27 @@ def turn_rows(rows: FloatArray, event: Event) -> None:
     separation changes as the foot's own does; when both feet turn together (``joint``), it turns
     as a whole, with the left one.
     """
-    yaw, foot = event.detail["yaw"], FEET.index(event.foot)
-    c, s = math.cos(yaw), math.sin(yaw)
-    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    pivot, shift = np.array(event.detail["pivot"]), np.array(event.detail["shift"])
-    part = rows[:, foot * at.O_FOOT : (foot + 1) * at.O_FOOT]
-    position, velocity = part[:, at.O_POS : at.O_POS + 3], part[:, at.O_VEL : at.O_VEL + 3]
-    position[:] = (position - pivot) @ turn.T + pivot + shift
-    velocity[:] = velocity @ turn.T
-    _turn_quaternions(part[:, at.O_QUAT : at.O_QUAT + 4], yaw)
-    relative = rows[:, at.O_RELATIVE : at.O_RELATIVE + 9]
-    own = part[:, at.O_COV_POS : at.O_COV_POS + 9]
-    joint = bool(event.detail.get("joint", False))
-    if not joint:
+    turn, foot = event.turn, FEET.index(event.foot)
+    part = rows[:, foot * lay.O_FOOT : (foot + 1) * lay.O_FOOT]
+    for start in (lay.O_VEL, lay.O_ZUPT):
+        vectors = part[:, start : start + 3]
+        vectors[:] = turn.vectors(vectors)
+    position, quaternion = part[:, lay.O_POS : lay.O_POS + 3], part[:, lay.O_QUAT : lay.O_QUAT + 4]
+    position[:], quaternion[:] = turn.positions(position), turn.quaternions(quaternion)
+    relative = rows[:, lay.O_RELATIVE : lay.O_RELATIVE + 9]
+    own = part[:, lay.O_COV_POS : lay.O_COV_POS + 9]
+    if not turn.joint:
         relative -= own
-    for start in (at.O_COV_POS, at.O_COV_VEL, at.O_COV_ATT, at.O_ZUPT + 3):
+    for start in (lay.O_COV_POS, lay.O_COV_VEL, lay.O_COV_ATT, lay.O_ZUPT + 3):
         _turn_covariances(part[:, start : start + 9], turn)
-    if not joint:
+    if not turn.joint:
         relative += own
     elif foot == 0:
         _turn_covariances(relative, turn)
-    part[:, at.O_ZUPT : at.O_ZUPT + 3] = part[:, at.O_ZUPT : at.O_ZUPT + 3] @ turn.T
 
 
-def _turn_quaternions(quaternions: FloatArray, yaw: float) -> None:
-    c, s = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
-    x, y, z, w = quaternions.T.copy()
-    turned = np.stack([c * x - s * y, c * y + s * x, c * z + s * w, c * w - s * z], axis=1)
-    quaternions[:] = np.where(turned[:, 3:] < 0.0, -turned, turned)
-
-
-def _turn_covariances(cells: FloatArray, turn: FloatArray) -> None:
-    matrices(cells)[:] = turn @ matrices(cells) @ turn.T
+def _turn_covariances(cells: FloatArray, turn: YawTurn) -> None:
+    matrices(cells)[:] = turn.covariances(matrices(cells))
 
 
 def clean_stance(stamps: IntArray, events: Iterable[Event], foot: int) -> np.ndarray:
@@ -103,20 +92,20 @@ def to_trajectory(
     """Build the trajectory of rows (N, OUT) that all HEADING events have been applied to."""
     feet = []
     for foot in range(2):
-        part = rows[:, foot * at.O_FOOT : (foot + 1) * at.O_FOOT]
+        part = rows[:, foot * lay.O_FOOT : (foot + 1) * lay.O_FOOT]
         feet.append(
             FootTrajectory(
                 stamps,
-                part[:, at.O_POS : at.O_POS + 3],
-                part[:, at.O_VEL : at.O_VEL + 3],
-                part[:, at.O_QUAT : at.O_QUAT + 4],
+                part[:, lay.O_POS : lay.O_POS + 3],
+                part[:, lay.O_VEL : lay.O_VEL + 3],
+                part[:, lay.O_QUAT : lay.O_QUAT + 4],
                 clean_stance(stamps, events, foot),
-                matrices(part[:, at.O_COV_POS : at.O_COV_POS + 9]),
-                matrices(part[:, at.O_COV_VEL : at.O_COV_VEL + 9]),
-                matrices(part[:, at.O_COV_ATT : at.O_COV_ATT + 9]),
+                matrices(part[:, lay.O_COV_POS : lay.O_COV_POS + 9]),
+                matrices(part[:, lay.O_COV_VEL : lay.O_COV_VEL + 9]),
+                matrices(part[:, lay.O_COV_ATT : lay.O_COV_ATT + 9]),
             )
         )
-    relative = matrices(rows[:, at.O_RELATIVE : at.O_RELATIVE + 9])
+    relative = matrices(rows[:, lay.O_RELATIVE : lay.O_RELATIVE + 9])
     start = int(stamps[0]) if len(stamps) else 0
     nis = zupt_nis(rows)
     return Trajectory(feet[0], feet[1], relative, events, dict(counters), start, method, nis)
@@ -124,10 +113,10 @@ def to_trajectory(
 
 def zupt_nis(rows: FloatArray) -> FloatArray:
     """Return the (N, 2) NIS of the zero-velocity updates of both feet, nan where there is none."""
-    starts = [foot * at.O_FOOT for foot in range(2)]
+    starts = [foot * lay.O_FOOT for foot in range(2)]
     return np.column_stack(
         [
-            np.where(rows[:, o + at.O_STANCE] > 0.0, rows[:, o + at.O_ZUPT + 12], np.nan)
+            np.where(rows[:, o + lay.O_STANCE] > 0.0, rows[:, o + lay.O_ZUPT + 12], np.nan)
             for o in starts
         ]
     )

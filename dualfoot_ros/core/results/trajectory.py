@@ -1,14 +1,15 @@
-"""What flows out: events, the estimate of one epoch, and whole trajectories."""
+"""Trajectories: the estimates of a whole walk, and its stance phases."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ..samples.series import FloatArray, IntArray
 from .events import Event, EventKind
+from .payloads import YawTurn
 
 
 @dataclass(frozen=True)
@@ -43,6 +44,18 @@ class FootTrajectory:
         """Walked distance: the horizontal way from stance to stance."""
         anchors = self.position[stance_middles(self.stance)][:, :2]
         return float(np.linalg.norm(np.diff(anchors, axis=0), axis=1).sum())
+
+    def turned(self, by: YawTurn) -> FootTrajectory:
+        """Return the whole track turned and shifted, covariances included."""
+        return replace(
+            self,
+            position=by.positions(self.position),
+            velocity=by.vectors(self.velocity),
+            quaternion=by.quaternions(self.quaternion),
+            position_covariance=by.covariances(self.position_covariance),
+            velocity_covariance=by.covariances(self.velocity_covariance),
+            attitude_covariance=by.covariances(self.attitude_covariance),
+        )
 
 
 @dataclass(frozen=True)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..heading import mean_angle
-from ..kernel import layout as at
-from ..kernel.workspace import joint_covariance
+from ..kernel import joint_covariance
+from ..kernel import layout as lay
+from ..rotation import mean_angle, quaternion_yaw
 from ..samples.series import FloatArray
 from .events import Event
 from .rows import matrices, zupt_event
@@ -27,27 +26,27 @@ class FootEstimate:
     @property
     def position(self) -> FloatArray:
         """Position (3,) m."""
-        return self.row[at.O_POS : at.O_POS + 3]
+        return self.row[lay.O_POS : lay.O_POS + 3]
 
     @property
     def velocity(self) -> FloatArray:
         """Velocity (3,) m/s in the navigation frame."""
-        return self.row[at.O_VEL : at.O_VEL + 3]
+        return self.row[lay.O_VEL : lay.O_VEL + 3]
 
     @property
     def quaternion(self) -> FloatArray:
         """Body to navigation (4,), Hamilton, x y z w."""
-        return self.row[at.O_QUAT : at.O_QUAT + 4]
+        return self.row[lay.O_QUAT : lay.O_QUAT + 4]
 
     @property
     def stance(self) -> bool:
         """Whether the foot has zero velocity as far as is known now."""
-        return bool(self.row[at.O_STANCE])
+        return bool(self.row[lay.O_STANCE])
 
     @property
     def angular_rate(self) -> FloatArray:
         """Bias-corrected angular rate (3,) rad/s in the body frame."""
-        return self.row[at.O_RATE : at.O_RATE + 3]
+        return self.row[lay.O_RATE : lay.O_RATE + 3]
 
     @property
     def yaw(self) -> float:
@@ -60,7 +59,7 @@ class FootEstimate:
 
     def twist_covariance(self) -> FloatArray:
         """Return the covariance (3, 3) of the velocity in the navigation frame, (m/s)^2."""
-        return matrices(self.row[at.O_COV_VEL : at.O_COV_VEL + 9])
+        return matrices(self.row[lay.O_COV_VEL : lay.O_COV_VEL + 9])
 
 
 @dataclass(frozen=True)
@@ -128,24 +127,26 @@ class Update:
     def _foot(self, foot: int) -> FootEstimate | None:
         if self.row is None or self._blocks is None:
             return None
-        row = self.row[foot * at.O_FOOT : (foot + 1) * at.O_FOOT]
-        block = self._blocks[foot * at.BLOCK : (foot + 1) * at.BLOCK]
-        return FootEstimate(row, pose_part(block.reshape(15, at.ROW)))
+        row = self.row[foot * lay.O_FOOT : (foot + 1) * lay.O_FOOT]
+        block = self._blocks[foot * lay.BLOCK : (foot + 1) * lay.BLOCK]
+        return FootEstimate(row, pose_part(block.reshape(lay.ERRORS, lay.ROW)))
 
     def pedestrian(self) -> PedestrianEstimate | None:
         """Return the mid-point of the feet with heading, from the joint covariance."""
         if self.row is None or self._blocks is None:
             return None
-        left, right = self.row[: at.O_FOOT], self.row[at.O_FOOT : 2 * at.O_FOOT]
+        left, right = self.row[: lay.O_FOOT], self.row[lay.O_FOOT : 2 * lay.O_FOOT]
         joint = joint_covariance(self._blocks)
         mean = np.zeros((9, 30))
-        for i, (state, half) in enumerate(((at.E_POS, 0.5), (at.E_ATT, -0.5), (at.E_VEL, 0.5))):
+        for i, (state, half) in enumerate(((lay.E_POS, 0.5), (lay.E_ATT, -0.5), (lay.E_VEL, 0.5))):
             for axis in range(3):
-                mean[3 * i + axis, state + axis] = mean[3 * i + axis, 15 + state + axis] = half
+                mean[3 * i + axis, state + axis] = mean[
+                    3 * i + axis, lay.ERRORS + state + axis
+                ] = half
         covariance = mean @ joint @ mean.T
         return PedestrianEstimate(
-            0.5 * (left[at.O_POS : at.O_POS + 3] + right[at.O_POS : at.O_POS + 3]),
-            0.5 * (left[at.O_VEL : at.O_VEL + 3] + right[at.O_VEL : at.O_VEL + 3]),
+            0.5 * (left[lay.O_POS : lay.O_POS + 3] + right[lay.O_POS : lay.O_POS + 3]),
+            0.5 * (left[lay.O_VEL : lay.O_VEL + 3] + right[lay.O_VEL : lay.O_VEL + 3]),
             mean_angle(*self._headings),
             covariance[:6, :6],
             covariance[6:, 6:],
@@ -158,11 +159,5 @@ def pose_part(block: FloatArray) -> FloatArray:
     The filter's attitude error turns the estimate back to the truth, C_hat = (I - [phi x]) C; the
     rotation by which the estimate exceeds the truth is -phi, hence the signs of the cross part.
     """
-    keep = [at.E_POS, at.E_POS + 1, at.E_POS + 2, at.E_ATT, at.E_ATT + 1, at.E_ATT + 2]
+    keep = [lay.E_POS, lay.E_POS + 1, lay.E_POS + 2, lay.E_ATT, lay.E_ATT + 1, lay.E_ATT + 2]
     return block[np.ix_(keep, keep)] * np.outer(POSE_SIGNS, POSE_SIGNS)
-
-
-def quaternion_yaw(q: FloatArray) -> float:
-    """Return the heading of the x axis of a quaternion (x, y, z, w), rad."""
-    x, y, z, w = (float(v) for v in q)
-    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))

@@ -11,7 +11,6 @@ import numpy as np
 from ...core import METHODS, EvaluationError, TrackerConfig, all_specs
 from ...settings import load_config, preset_names
 
-ONE_SHOE = "rigid_pair"
 SHORT = {"gamma": "stance.threshold"}
 MOST_VALUES = 200
 
@@ -82,16 +81,17 @@ def _what(text: str) -> str:
 def case_names(text: str) -> list[str]:
     """Return the names in ``all`` or a list like ``zupt,idc,liu2023``.
 
-    ``all`` is every method for a sensor on each foot (``rigid_pair`` has both on one shoe).
+    ``all`` is every method for a sensor on each foot (some have both on one shoe).
 
     Raises
     ------
     EvaluationError
         Naming what is neither a method nor a preset.
     """
+    both_feet = [name for name, method in METHODS.items() if not method.sensors_on_one_shoe]
     names: list[str] = []
     for name in (part.strip() for part in text.split(",")):
-        names += [m for m in METHODS if m != ONE_SHOE] if name == "all" else [name]
+        names += both_feet if name == "all" else [name]
     known = [*METHODS, *preset_names()]
     for name in names:
         if name not in known:

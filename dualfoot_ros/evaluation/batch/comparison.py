@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...core import EvaluationError, FloatArray, IntArray
-from ...core.kernel import compiled
+from ...core.compiler import compiled
 from ...inspection import require_usable
 from ...recording import Recording, Topics, read_bag
 from ..evaluate import Evaluation, evaluate

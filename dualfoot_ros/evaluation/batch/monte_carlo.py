@@ -23,6 +23,7 @@ import numpy as np
 
 from ...core import (
     FEET,
+    METHODS,
     DualFootTracker,
     EvaluationError,
     EventKind,
@@ -247,6 +248,4 @@ def _nees_score(name: str, walks: Sequence[WalkScores]) -> Score:
 
 def constraint_dimensions(config: TrackerConfig) -> int:
     """Return how many components the constraint of the method observes at once."""
-    if config.method == "spacing_vector":
-        return 2 if getattr(config.constraint, "variant", "") == "vector" else 1
-    return {"step_length": 3, "rigid_pair": 3}.get(config.method, 1)
+    return METHODS[config.method](config.constraint).dimensions

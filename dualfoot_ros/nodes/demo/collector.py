@@ -10,11 +10,20 @@ from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 
-from ...core import FEET, Event, EventKind, FloatArray, Trajectory, to_trajectory, turn_rows
+from ...core import (
+    FEET,
+    Event,
+    EventKind,
+    FloatArray,
+    Trajectory,
+    quaternion_matrix,
+    to_trajectory,
+    turn_rows,
+)
 from ...core.kernel import layout as at
 from ..results import event_messages as events
 from ..ros import qos
-from ..ros.messages import pose_of, rotation_matrix, to_ns
+from ..ros.messages import pose_of, to_ns
 
 DEPTH = 5000
 
@@ -69,7 +78,7 @@ def fill_row(row: FloatArray, messages: Mapping[str, Odometry]) -> None:
         position, quaternion = pose_of(message.pose.pose)
         part[at.O_POS : at.O_POS + 3] = position
         part[at.O_QUAT : at.O_QUAT + 4] = quaternion
-        to_nav, linear = rotation_matrix(quaternion), message.twist.twist.linear
+        to_nav, linear = quaternion_matrix(quaternion), message.twist.twist.linear
         part[at.O_VEL : at.O_VEL + 3] = to_nav @ np.array([linear.x, linear.y, linear.z])
         pose = message.pose.covariance.reshape(6, 6)
         twist = to_nav @ message.twist.covariance.reshape(6, 6)[:3, :3] @ to_nav.T

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from ...core import Event, EventKind
+from ...core import Details, Event, EventKind, YawTurn
 from ..ros.diagnostics import OK, WARN
 from ..ros.messages import set_time
 
@@ -55,8 +55,10 @@ def _status(event: Event) -> DiagnosticStatus:
 
 def _event(status: DiagnosticStatus) -> Event:
     values = {each.key: json.loads(each.value) for each in status.values}
+    kind, detail = EventKind(status.name), values["detail"]
+    turn = kind is EventKind.HEADING
     return Event(
-        EventKind(status.name),
+        kind,
         values["stamp_ns"],
         status.hardware_id,
         values["detected_ns"],
@@ -64,7 +66,7 @@ def _event(status: DiagnosticStatus) -> Event:
         np.array(values["S"], dtype=np.float64).reshape(-1, max(1, len(values["innovation"]))),
         values["nis"],
         values["accepted"],
-        values["detail"],
+        YawTurn.from_dict(detail) if turn else Details(detail),
     )
 
 

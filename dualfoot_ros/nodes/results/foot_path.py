@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections import deque
 from typing import NamedTuple
 
-import numpy as np
 from nav_msgs.msg import Path
 
 from ...core import Event, EventKind, FloatArray, FootEstimate
-from ..ros.messages import pose_stamped, set_time, yaw_quaternion
+from ..ros.messages import pose_stamped, set_time
 
 
 class _Pose(NamedTuple):
@@ -19,11 +18,9 @@ class _Pose(NamedTuple):
 
     def turned(self, event: Event) -> _Pose:
         """Return the pose turned and moved as a HEADING event says."""
-        yaw, pivot = float(event.detail["yaw"]), np.array(event.detail["pivot"])
-        c, s = np.cos(yaw), np.sin(yaw)
-        turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-        position = turn @ (self.position - pivot) + pivot + np.array(event.detail["shift"])
-        return _Pose(self.stamp_ns, position, _product(yaw_quaternion(yaw), self.quaternion))
+        position = event.turn.positions(self.position[None])[0]
+        quaternion = event.turn.quaternions(self.quaternion[None])[0]
+        return _Pose(self.stamp_ns, position, quaternion)
 
 
 class FootPath:
@@ -80,9 +77,3 @@ class FootPath:
             set_time(message.header.stamp, poses[-1].stamp_ns)
         message.poses = [pose_stamped(self._frame_id, *pose) for pose in poses]
         return message
-
-
-def _product(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return the quaternion product a b, both (x, y, z, w)."""
-    v = a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3])
-    return np.append(v, a[3] * b[3] - a[:3] @ b[:3])

@@ -10,7 +10,14 @@ from geometry_msgs.msg import Pose, PoseStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
 
-from ...core import FloatArray, FootEstimate, PedestrianEstimate, quaternion_yaw
+from ...core import (
+    FloatArray,
+    FootEstimate,
+    PedestrianEstimate,
+    quaternion_matrix,
+    quaternion_yaw,
+    yaw_quaternion,
+)
 
 SECOND = 1_000_000_000
 UNKNOWN_RATE_VARIANCE = 1.0e3  # (rad/s)^2; the person's turning rate is not estimated
@@ -46,23 +53,6 @@ def new_imu(frame_id: str) -> Imu:
     return message
 
 
-def rotation_matrix(quaternion: FloatArray) -> FloatArray:
-    """Return R_nb (3, 3) of a unit quaternion (x, y, z, w)."""
-    x, y, z, w = quaternion.tolist()
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
-def yaw_quaternion(yaw: float) -> FloatArray:
-    """Return the quaternion (x, y, z, w) of a rotation about z."""
-    return np.array([0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw)])
-
-
 def set_pose(pose: Pose, position: FloatArray, quaternion: FloatArray) -> None:
     """Put position (3,) m and quaternion (x, y, z, w) into ``pose``."""
     p, q = pose.position, pose.orientation
@@ -85,7 +75,7 @@ def fill_foot(message: Odometry, stamp_ns: int, foot: FootEstimate, rate_varianc
     set_time(message.header.stamp, stamp_ns)
     set_pose(message.pose.pose, foot.position, foot.quaternion)
     message.pose.covariance = foot.pose_covariance().ravel()
-    to_body = rotation_matrix(foot.quaternion).T
+    to_body = quaternion_matrix(foot.quaternion).T
     linear, angular = message.twist.twist.linear, message.twist.twist.angular
     linear.x, linear.y, linear.z = (to_body @ foot.velocity).tolist()
     angular.x, angular.y, angular.z = foot.angular_rate.tolist()
@@ -99,7 +89,7 @@ def fill_pedestrian(message: Odometry, stamp_ns: int, person: PedestrianEstimate
     quaternion = yaw_quaternion(person.heading)
     set_pose(message.pose.pose, person.position, quaternion)
     message.pose.covariance = person.pose_covariance.ravel()
-    to_body = rotation_matrix(quaternion).T
+    to_body = quaternion_matrix(quaternion).T
     linear = message.twist.twist.linear
     linear.x, linear.y, linear.z = (to_body @ person.velocity).tolist()
     covariance = to_body @ person.velocity_covariance @ to_body.T

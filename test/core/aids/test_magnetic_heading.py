@@ -23,7 +23,7 @@ from dualfoot_ros.core import (
 from dualfoot_ros.core.aids import FieldLog, MagneticHeading
 from dualfoot_ros.core.aids.field import NavigationField, mean_field
 from dualfoot_ros.core.aids.magnetic_heading import heading_row
-from dualfoot_ros.core.config_groups import Aids
+from dualfoot_ros.core.config_groups import AidsConfig
 from dualfoot_ros.core.results.events import FEET
 from dualfoot_ros.simulation import MagnetometerConfig, SensorConfig, WalkConfig, simulate
 from dualfoot_ros.timing import align
@@ -35,7 +35,7 @@ from ..harness import Pairs, quick_engine, stack_pairs
 ENGINE = quick_engine().name
 SECOND = 1_000_000_000
 EARTH = MagnetometerConfig(hard_iron=0.0, noise=0.1)
-CONFIG = Aids(magnetic_heading=True, magnetic_std=0.3, magnetic_stances=2)
+CONFIG = AidsConfig(magnetic_heading=True, magnetic_std=0.3, magnetic_stances=2)
 components = st.floats(-60e-6, 60e-6)
 
 
@@ -68,7 +68,7 @@ def test_a_turn_about_the_vertical_changes_direction_only(x, y, z, angle):
 class Stances:
     """Gives an aid the field of one stance after another."""
 
-    def __init__(self, foot: int = 0, config: Aids = CONFIG, seed: int = 0) -> None:
+    def __init__(self, foot: int = 0, config: AidsConfig = CONFIG, seed: int = 0) -> None:
         self.space, self.estimate = apart(seed, 0.2)
         self.foot, self.counters, self._first = foot, Counter(), 10
         self._logs = {name: FieldLog() for name in FEET}
@@ -118,7 +118,7 @@ def test_a_stance_is_the_kalman_update_of_the_direction_in_its_middle(foot, seed
 
 
 def test_the_reference_is_the_mean_of_the_first_stances_that_agree():
-    made = Stances(config=Aids(magnetic_heading=True, magnetic_stances=3))
+    made = Stances(config=AidsConfig(magnetic_heading=True, magnetic_stances=3))
     said = [made.stand(scale * NORTH).accepted for scale in (1.5, 1.02, 0.7, 1.0, 1.03, 1.01)]
     assert not any(said) and made.counters["stances_before_field_reference"] == 5
     assert made.stand(1.01 * NORTH).accepted
@@ -131,7 +131,7 @@ def test_the_reference_is_the_mean_of_the_first_stances_that_agree():
     ids=["larger", "smaller", "steeper", "upside down", "vertical"],
 )
 def test_another_size_or_dip_is_a_disturbed_field_and_so_are_the_stances_right_after(other):
-    made = Stances(config=Aids(magnetic_heading=True, magnetic_stances=3))
+    made = Stances(config=AidsConfig(magnetic_heading=True, magnetic_stances=3))
     for _ in range(4):
         outcome = made.stand(NORTH)
     assert outcome.accepted

@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core.aids import WORN, Barometer, FlatFloor, PressureLog, height_pressure
-from dualfoot_ros.core.config_groups import Aids
+from dualfoot_ros.core.config_groups import AidsConfig
 
 from ..constraints.joint import MadeUpGait, apart, assert_dense_update, stance, states
 
-CONFIG = Aids(barometer=True, flat_floor=True, barometer_std=0.2, floor_std=0.03, static_std=0.05)
+CONFIG = AidsConfig(
+    barometer=True, flat_floor=True, barometer_std=0.2, floor_std=0.03, static_std=0.05
+)
 
 
 def gait_until(now: int) -> MadeUpGait:

@@ -8,9 +8,8 @@ import numpy as np
 
 from dualfoot_ros.core.constraints.method import StancePhase
 from dualfoot_ros.core.joint_estimate import JointEstimate
-from dualfoot_ros.core.kernel import interpreted
-from dualfoot_ros.core.kernel import layout as at
-from dualfoot_ros.core.kernel.workspace import Workspace
+from dualfoot_ros.core.kernel import Workspace, interpreted
+from dualfoot_ros.core.kernel import layout as lay
 
 from ..dense import joseph
 from ..kernel.states import error_between, nominal, random_workspace
@@ -30,8 +29,8 @@ def apart(seed: int, distance: float) -> tuple[Workspace, JointEstimate]:
 
 def set_separation(space: Workspace, r) -> None:
     """Place the right foot so that left minus right is ``r`` (3,) m."""
-    left = space.w[at.POS : at.POS + 3]
-    space.w[at.FOOT + at.POS : at.FOOT + at.POS + 3] = left - np.asarray(r)
+    left = space.w[lay.POS : lay.POS + 3]
+    space.w[lay.FOOT + lay.POS : lay.FOOT + lay.POS + 3] = left - np.asarray(r)
 
 
 def separation(estimate: JointEstimate) -> np.ndarray:

@@ -10,11 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
-from dualfoot_ros.core.constraints import idc
 from dualfoot_ros.core.constraints.distance_solvers import exact, iterate
+from dualfoot_ros.core.constraints.idc import Idc, IdcConfig
 from dualfoot_ros.core.joint_estimate import JointEstimate, relative_row
 from dualfoot_ros.core.kernel import interpreted
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import layout as lay
 
 from ..kernel.states import error_between, nominal, random_workspace
 
@@ -31,14 +31,14 @@ def problem(seed: int, share: float):
     space, rng = random_workspace(seed), np.random.default_rng(seed)
     unit = rng.normal(size=3)
     apart = unit / np.linalg.norm(unit) * rng.uniform(0.06, 1.0)
-    left = space.w[at.POS : at.POS + 3]
-    space.w[at.FOOT + at.POS : at.FOOT + at.POS + 3] = left - apart
+    left = space.w[lay.POS : lay.POS + 3]
+    space.w[lay.FOOT + lay.POS : lay.FOOT + lay.POS + 3] = left - apart
     r = np.array(JointEstimate(space, interpreted()).relative_position())
     return space, r, space.covariance(), share * float(np.linalg.norm(r))
 
 
-def method(c0: float, **options) -> idc.Method:
-    return idc.Method(idc.Config(distance=c0, **options))
+def method(c0: float, **options) -> Idc:
+    return Idc(IdcConfig(distance=c0, **options))
 
 
 def constrained(space, c0: float, **options):
@@ -53,7 +53,7 @@ def constrained(space, c0: float, **options):
 def positions(w: np.ndarray) -> np.ndarray:
     """Return the 30-vector of eq. (15): only the positions matter to the constraint."""
     x = np.zeros(30)
-    x[0:3], x[15:18] = w[at.POS : at.POS + 3], w[at.FOOT + at.POS : at.FOOT + at.POS + 3]
+    x[0:3], x[15:18] = w[lay.POS : lay.POS + 3], w[lay.FOOT + lay.POS : lay.FOOT + lay.POS + 3]
     return x
 
 
@@ -190,28 +190,28 @@ def test_nothing_happens_to_feet_that_are_within_c0(solver):
     space, r, _, _ = problem(2, 0.5)
     before = space.w.copy()
     c0 = min(1.0, 1.01 * float(np.linalg.norm(r)))
-    space.w[at.FOOT + at.POS : at.FOOT + at.POS + 3] = before[at.POS : at.POS + 3] + np.array(
-        [0.0, 0.1, 0.0]
-    )
+    space.w[lay.FOOT + lay.POS : lay.FOOT + lay.POS + 3] = before[
+        lay.POS : lay.POS + 3
+    ] + np.array([0.0, 0.1, 0.0])
     before = space.w.copy()
     outcome, _, _ = constrained(space, c0, solver=solver)
     assert not outcome.accepted
     assert outcome.detail["reason"] == "distance within c0"
-    assert np.array_equal(space.w[: at.STATE], before[: at.STATE])
+    assert np.array_equal(space.w[: lay.STATE], before[: lay.STATE])
 
 
 def test_feet_at_the_very_same_place_are_left_alone():
     space = random_workspace(3)
-    space.w[at.FOOT + at.POS : at.FOOT + at.POS + 3] = space.w[at.POS : at.POS + 3]
+    space.w[lay.FOOT + lay.POS : lay.FOOT + lay.POS + 3] = space.w[lay.POS : lay.POS + 3]
     assert not constrained(space, 0.15)[0].accepted
 
 
 def test_a_second_hard_constraint_at_the_same_moment_changes_nothing():
     space, _, _, c0 = problem(4, 0.5)
     constrained(space, c0, distance_std=0.0)
-    settled = space.w[: at.STATE].copy()
+    settled = space.w[: lay.STATE].copy()
     constrained(space, c0, distance_std=0.0)
-    assert np.allclose(space.w[: at.STATE], settled, atol=1e-9)
+    assert np.allclose(space.w[: lay.STATE], settled, atol=1e-9)
 
 
 @given(seeds, st.floats(0.02, 0.2))
@@ -226,7 +226,7 @@ def test_a_distance_out_of_reach_of_what_is_uncertain_never_throws_the_feet_away
         estimate.update([relative_row(unit)], [0.0], [0.0])
     r = np.array(estimate.relative_position())
     outcome, after, _ = constrained(space, c0, distance_std=0.0)
-    assert np.isfinite(space.w[: at.STATE]).all()
+    assert np.isfinite(space.w[: lay.STATE]).all()
     assert np.linalg.norm(after) <= np.linalg.norm(r) + 1e-9
     assert outcome.S[0, 0] >= 0.0
 

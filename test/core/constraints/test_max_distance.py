@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dualfoot_ros.core import DualFootTracker, EventKind, TrackerConfig
-from dualfoot_ros.core.constraints import max_distance
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.constraints.max_distance import MaxDistance, MaxDistanceConfig
+from dualfoot_ros.core.kernel import layout as lay
 
 from ..harness import walk
 from .joint import (
@@ -24,8 +24,8 @@ from .joint import (
 seeds = st.integers(0, 10_000)
 
 
-def method(bound: float, **options) -> max_distance.Method:
-    return max_distance.Method(max_distance.Config(bound=bound, **options))
+def method(bound: float, **options) -> MaxDistance:
+    return MaxDistance(MaxDistanceConfig(bound=bound, **options))
 
 
 @given(seeds, st.floats(0.2, 1.0), st.floats(1.02, 2.0))
@@ -52,7 +52,7 @@ def test_feet_within_the_bound_are_left_alone_to_the_bit(seed, bound, share):
     space, estimate = apart(seed, bound * share * 0.999)
     before = space.w.copy()
     assert not method(bound).apply(estimate).accepted
-    assert np.array_equal(space.w[: at.STATE], before[: at.STATE])
+    assert np.array_equal(space.w[: lay.STATE], before[: lay.STATE])
 
 
 def test_the_hard_bound_loses_the_uncertainty_along_the_separation_and_no_other():

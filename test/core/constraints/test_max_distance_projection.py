@@ -8,8 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
-from dualfoot_ros.core.constraints.max_distance_projection import Config, Method, pull
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.constraints.max_distance_projection import (
+    MaxDistanceProjection,
+    MaxDistanceProjectionConfig,
+    pull,
+)
+from dualfoot_ros.core.kernel import layout as lay
 
 from .joint import MadeUpGait, apart
 
@@ -31,8 +35,8 @@ def test_the_moving_foot_comes_to_gamma_over_d_of_its_way_and_nothing_else_chang
         estimate.position(moving), standing + gamma / d * (moved - standing), rtol=0, atol=1e-14
     )
     assert outcome.detail["distance_after"] == pytest.approx(gamma)
-    start = moving * at.FOOT + at.POS
-    changed = np.flatnonzero(space.w[: at.STATE] != before[: at.STATE])
+    start = moving * lay.FOOT + lay.POS
+    changed = np.flatnonzero(space.w[: lay.STATE] != before[: lay.STATE])
     assert set(changed) <= {start, start + 1, start + 2}
 
 
@@ -40,9 +44,9 @@ def test_the_moving_foot_comes_to_gamma_over_d_of_its_way_and_nothing_else_chang
 @settings(max_examples=20, deadline=None)
 def test_a_foot_inside_the_sphere_stays_where_it_is(seed, moving, gamma, share):
     space, estimate = apart(seed, gamma * share * 0.999)
-    before = space.w[: at.STATE].copy()
+    before = space.w[: lay.STATE].copy()
     assert not pull(estimate, moving, gamma).accepted
-    assert np.array_equal(space.w[: at.STATE], before)
+    assert np.array_equal(space.w[: lay.STATE], before)
 
 
 def test_it_is_the_nearest_point_of_the_sphere_as_equation_3_asks():
@@ -63,9 +67,9 @@ def test_it_is_the_nearest_point_of_the_sphere_as_equation_3_asks():
 def test_pulling_twice_is_pulling_once():
     space, estimate = apart(2, 1.3)
     pull(estimate, 0, 0.9)
-    once = space.w[: at.STATE].copy()
+    once = space.w[: lay.STATE].copy()
     pull(estimate, 0, 0.9)
-    assert np.allclose(space.w[: at.STATE], once, rtol=0, atol=1e-15)
+    assert np.allclose(space.w[: lay.STATE], once, rtol=0, atol=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -73,7 +77,7 @@ def test_pulling_twice_is_pulling_once():
 )
 def test_only_the_one_foot_that_moves_is_pulled(still, pulled):
     gait = MadeUpGait(np.array(still, dtype=bool)[:, None])
-    requests = Method(Config(bound=0.9)).on_epoch(gait)
+    requests = MaxDistanceProjection(MaxDistanceProjectionConfig(bound=0.9)).on_epoch(gait)
     assert len(requests) == (pulled is not None)
     if requests:
         _, estimate = apart(4, 1.4)

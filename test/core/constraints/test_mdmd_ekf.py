@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.core.constraints import idc, mdmd_ekf
+from dualfoot_ros.core.constraints.idc import Idc
+from dualfoot_ros.core.constraints.mdmd import MdmdEkf, MdmdEkfConfig
 
 from .joint import (
     SELECTOR,
@@ -22,8 +23,8 @@ from .joint import (
 seeds = st.integers(0, 10_000)
 
 
-def method(distance: float, **options) -> mdmd_ekf.Method:
-    return mdmd_ekf.Method(mdmd_ekf.Config(distance=distance, **options))
+def method(distance: float, **options) -> MdmdEkf:
+    return MdmdEkf(MdmdEkfConfig(distance=distance, **options))
 
 
 @given(seeds, st.floats(0.2, 1.0), st.floats(0.01, 0.3))
@@ -47,11 +48,11 @@ def test_it_is_the_dense_update_with_the_gradient_of_the_distance(seed, distance
 def test_one_linearisation_of_a_hard_constraint_is_the_first_iterate_of_the_paper():
     """Eq. (22) starts from A_0 = 2 r', the same row up to length; the constraint is not met."""
     found = []
-    for module, options in ((mdmd_ekf, {}), (idc, {"solver": "iterative", "iterations": 1})):
+    for method_class, options in ((MdmdEkf, {}), (Idc, {"solver": "iterative", "iterations": 1})):
         space, estimate = apart(11, 0.6)
         before = states(space)
-        config = module.Config(distance=0.59, distance_std=0.0, **options)
-        module.Method(config).apply(estimate)
+        config = method_class.config_class(distance=0.59, distance_std=0.0, **options)
+        method_class(config).apply(estimate)
         found.append((error_taken(before, space), np.linalg.norm(separation(estimate))))
     # their linearised right-hand sides differ by (|r| - c0)^2 / (2 |r|)
     assert np.abs(found[0][0] - found[1][0]).max() < 0.02 * np.abs(found[0][0]).max()

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.core.constraints import min_distance
+from dualfoot_ros.core.constraints.min_distance import MinDistance, MinDistanceConfig
 
 from .joint import MadeUpGait, apart, assert_dense_update, separation, stance, states
 
@@ -23,8 +23,8 @@ def passing(at: float, closest: float = 0.15, pace: float = 0.02) -> MadeUpGait:
     return MadeUpGait(still, positions)
 
 
-def method(**options) -> min_distance.Method:
-    return min_distance.Method(min_distance.Config(**options))
+def method(**options) -> MinDistance:
+    return MinDistance(MinDistanceConfig(**options))
 
 
 @given(st.integers(FIRST + 1, LAST - 1), st.floats(-0.49, 0.49))

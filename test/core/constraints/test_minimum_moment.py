@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dualfoot_ros.core import DualFootTracker, EventKind, TrackerConfig
-from dualfoot_ros.core.constraints import mdmd_ekf
+from dualfoot_ros.core.constraints.mdmd import MdmdEkf, MdmdEkfConfig
 
 from ..harness import simulated, walk
 from .joint import MadeUpGait, apart, separation, set_separation, stance
@@ -18,8 +18,8 @@ lengths = st.integers(0, 60)
 shares = st.floats(0.0, 1.0)
 
 
-def method(**options) -> mdmd_ekf.Method:
-    return mdmd_ekf.Method(mdmd_ekf.Config(distance=0.15, **options))
+def method(**options) -> MdmdEkf:
+    return MdmdEkf(MdmdEkfConfig(distance=0.15, **options))
 
 
 def standing(foot: int, first: int, last: int) -> MadeUpGait:

@@ -9,8 +9,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core import DualFootTracker, EventKind, TrackerConfig
-from dualfoot_ros.core.constraints.rigid_pair import Config, Method
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.constraints.rigid_pair import RigidPair, RigidPairConfig
+from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.simulation import (
     SensorConfig,
@@ -121,7 +121,7 @@ def test_with_known_attitude_it_is_the_papers_linear_filter():
             foot.propagate(dt, pairs.values[k, 6 * i : 6 * i + 6])
             u.append((foot.v - before) / dt)
         ours.predict(*u, dt)
-        flags = int(session.space.n[at.N_FLAGS + epoch % session.space.ring])
+        flags = int(session.space.n[lay.N_FLAGS + epoch % session.space.ring])
         ends = [
             f.rate + 0.5 * (f.rate - r) * (epoch > 0) for f, r in zip(feet, rates, strict=True)
         ]
@@ -152,17 +152,17 @@ def innovations(space, gait, method) -> np.ndarray:
 @pytest.mark.parametrize("same_axes", (True, False))
 def test_the_rows_are_the_derivatives_of_the_innovations(same_axes):
     """Numerically; one error state at a time has variance, so that the gain shows its row."""
-    method = Method(Config(lever_arm=(0.3, -0.2, 0.1)))
+    method = RigidPair(RigidPairConfig(lever_arm=(0.3, -0.2, 0.1)))
     rng, step = np.random.default_rng(2), 1e-6
     space = random_workspace(2)
     if same_axes:
-        space.w[at.FOOT + at.ROT :][:9] = space.w[at.ROT :][:9]
+        space.w[lay.FOOT + lay.ROT :][:9] = space.w[lay.ROT :][:9]
     raw = rng.normal(size=(2, 2, 6))
 
     class Gait(MadeUpGait):
         def sample(self, foot, epoch):
             values = self.samples[foot, epoch].copy()
-            values[3:] -= space.w[foot * at.FOOT + at.BG :][:3]
+            values[3:] -= space.w[foot * lay.FOOT + lay.BG :][:3]
             return values
 
     gait = Gait(np.zeros((2, 2), dtype=bool), samples=raw)
@@ -192,11 +192,11 @@ def test_sensors_with_other_axes_are_told_apart():
     """Their rates are in different axes and cannot be averaged; the first one's are used."""
     space = random_workspace(3)
     estimate = JointEstimate(space, interpreted())
-    space.w[at.FOOT + at.ROT :][:9] = space.w[at.ROT :][:9]
-    assert Method(Config())._same_axes(estimate)
+    space.w[lay.FOOT + lay.ROT :][:9] = space.w[lay.ROT :][:9]
+    assert RigidPair(RigidPairConfig())._same_axes(estimate)
     turned = Rotation.from_rotvec([0.0, 0.0, 0.3]).as_matrix()
-    space.w[at.FOOT + at.ROT :][:9] = (estimate.rotation(0) @ turned).ravel()
-    assert not Method(Config())._same_axes(estimate)
+    space.w[lay.FOOT + lay.ROT :][:9] = (estimate.rotation(0) @ turned).ravel()
+    assert not RigidPair(RigidPairConfig())._same_axes(estimate)
 
 
 # --- recordings ---

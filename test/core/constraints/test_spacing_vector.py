@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.core.constraints.spacing_vector import Config, Method
+from dualfoot_ros.core.constraints.spacing_vector import SpacingVector, SpacingVectorConfig
 from dualfoot_ros.core.heading import mean_angle
 
 from ..kernel.states import set_covariance
@@ -28,8 +28,8 @@ headings = st.floats(-7.0, 7.0)
 spacings = st.floats(0.05, 0.4)
 
 
-def method(**options) -> Method:
-    return Method(Config(**options))
+def method(**options) -> SpacingVector:
+    return SpacingVector(SpacingVectorConfig(**options))
 
 
 @given(seeds, headings, spacings)

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dualfoot_ros.core import DualFootTracker, EventKind, TrackerConfig
-from dualfoot_ros.core.constraints.step_length import Config, Method, step_length
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.constraints.step_length import StepLength, StepLengthConfig, step_length
+from dualfoot_ros.core.kernel import layout as lay
 
 from ..harness import walk
 from ..kernel.states import set_covariance
@@ -21,7 +21,7 @@ feet = st.integers(0, 1)
 
 def test_the_papers_subject_of_1_83_m_has_a_bound_of_1_207_m():
     assert step_length(1.83) == pytest.approx(1.207, abs=5e-4)
-    assert Config(body_height=1.83).threshold_m == pytest.approx(1.2, abs=0.01)
+    assert StepLengthConfig(body_height=1.83).threshold_m == pytest.approx(1.2, abs=0.01)
 
 
 @given(st.floats(1.45, 2.1))
@@ -30,7 +30,7 @@ def test_ten_centimetres_of_height_are_28_of_step(height):
 
 
 def test_a_bound_that_is_given_wins_over_the_height():
-    assert Config(body_height=1.83, bound=0.8).threshold_m == 0.8
+    assert StepLengthConfig(body_height=1.83, bound=0.8).threshold_m == 0.8
 
 
 @given(seeds, feet, st.floats(1.02, 2.0), st.floats(0.01, 1.0))
@@ -44,7 +44,7 @@ def test_it_is_the_dense_update_of_the_swinging_position_by_the_virtual_one(
     swing, stand = estimate.position(swinging), estimate.position(1 - swinging)
     D = np.linalg.norm(swing - stand)  # eq. (22)
     virtual = ((D - bound) * stand + bound * swing) / D  # eq. (23), second form
-    Method(Config(bound=bound, position_std=std)).apply(estimate, swinging)
+    StepLength(StepLengthConfig(bound=bound, position_std=std)).apply(estimate, swinging)
     H = np.zeros((3, 30))
     H[:, 15 * swinging : 15 * swinging + 3] = np.eye(3)  # eq. (26)
     assert_dense_update(before, P, space, H, np.eye(3) * std**2, swing - virtual)
@@ -58,7 +58,7 @@ def test_an_exact_virtual_position_puts_the_swinging_foot_on_the_sphere(seed, sw
     P[:15, 15:] = P[15:, :15] = 0.0
     set_covariance(space, P)
     stand = estimate.position(1 - swinging)
-    Method(Config(bound=0.9, position_std=1e-3)).apply(estimate, swinging)
+    StepLength(StepLengthConfig(bound=0.9, position_std=1e-3)).apply(estimate, swinging)
     assert np.array_equal(estimate.position(1 - swinging), stand)
     assert np.linalg.norm(estimate.position(swinging) - stand) == pytest.approx(0.9, abs=1e-3)
 
@@ -67,16 +67,16 @@ def test_an_exact_virtual_position_puts_the_swinging_foot_on_the_sphere(seed, sw
 @settings(max_examples=20, deadline=None)
 def test_within_the_bound_nothing_happens(seed, swinging, share):
     space, estimate = apart(seed, 0.9 * share * 0.999)
-    before = space.w[: at.STATE].copy()
-    outcome = Method(Config(bound=0.9)).apply(estimate, swinging)
+    before = space.w[: lay.STATE].copy()
+    outcome = StepLength(StepLengthConfig(bound=0.9)).apply(estimate, swinging)
     assert not outcome.accepted
-    assert np.array_equal(space.w[: at.STATE], before)
+    assert np.array_equal(space.w[: lay.STATE], before)
 
 
 @pytest.mark.parametrize(("still", "asked"), [((1, 0), 1), ((0, 1), 1), ((1, 1), 0), ((0, 0), 0)])
 def test_exactly_one_foot_must_swing(still, asked):
     gait = MadeUpGait(np.array(still, dtype=bool)[:, None])
-    assert len(Method(Config()).on_epoch(gait)) == asked
+    assert len(StepLength(StepLengthConfig()).on_epoch(gait)) == asked
 
 
 def test_on_a_walk_of_normal_steps_the_bound_of_the_body_is_idle_and_a_tight_one_is_not():

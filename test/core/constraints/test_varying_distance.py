@@ -8,7 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dualfoot_ros.core import DualFootTracker, EventKind, TrackerConfig
-from dualfoot_ros.core.constraints.varying_distance import Config, Method, feet_adjacent
+from dualfoot_ros.core.constraints.varying_distance import (
+    VaryingDistance,
+    VaryingDistanceConfig,
+    feet_adjacent,
+)
 
 from ..harness import simulated, walk
 from .joint import MadeUpGait, apart, stance
@@ -19,21 +23,21 @@ offsets = st.integers(-60, 60)
 
 @given(offsets)
 def test_the_bound_is_symmetric_about_feet_adjacent(offset):
-    method = Method(Config())
+    method = VaryingDistance(VaryingDistanceConfig())
     assert method.bound(offset, PHASE) == method.bound(-offset, PHASE)
 
 
 @given(offsets, offsets)
 def test_the_bound_rises_away_from_feet_adjacent_and_stays_between_its_ends(a, b):
-    config = Config(minimum=0.2, maximum=0.9)
-    method = Method(config)
+    config = VaryingDistanceConfig(minimum=0.2, maximum=0.9)
+    method = VaryingDistance(config)
     near, far = sorted((abs(a), abs(b)))
     assert config.minimum <= method.bound(near, PHASE) <= method.bound(far, PHASE)
     assert method.bound(far, PHASE) <= config.maximum
 
 
 def test_the_bound_is_the_minimum_at_feet_adjacent_and_the_maximum_at_the_ends():
-    method = Method(Config(minimum=0.17, maximum=0.95))
+    method = VaryingDistance(VaryingDistanceConfig(minimum=0.17, maximum=0.95))
     assert method.bound(0, PHASE) == pytest.approx(0.17, abs=1e-15)
     assert method.bound(35, PHASE) == pytest.approx(0.95, abs=2e-4)
 
@@ -41,18 +45,20 @@ def test_the_bound_is_the_minimum_at_feet_adjacent_and_the_maximum_at_the_ends()
 def test_the_papers_sigma_is_five_samples_at_60_hz():
     """There the flipped Gaussian has risen by 1 - exp(-1/2) of the way five samples from FA."""
     at_60_hz = stance(0, 60, 90, rate=60.0)
-    risen = (Method(Config()).bound(5, at_60_hz) - 0.2) / 0.7
+    risen = (VaryingDistance(VaryingDistanceConfig()).bound(5, at_60_hz) - 0.2) / 0.7
     assert risen == pytest.approx(1.0 - np.exp(-0.5), abs=1e-3)
 
 
-def moving_period(others: slice) -> tuple[MadeUpGait, Method]:
+def moving_period(others: slice) -> tuple[MadeUpGait, VaryingDistance]:
     """Return a gait in which the left foot moved over epochs 20..59."""
     still = np.zeros((2, 100), dtype=bool)
     still[0, :20] = still[0, 60:] = True
     still[1, others] = True
     samples = np.zeros((2, 100, 6))
     samples[0, 20:60, 4] = np.cos(np.linspace(-np.pi, np.pi, 40)) * 5.0
-    return MadeUpGait(still, np.zeros((100, 2, 3)), samples, ended=(19, -1)), Method(Config())
+    return MadeUpGait(still, np.zeros((100, 2, 3)), samples, ended=(19, -1)), VaryingDistance(
+        VaryingDistanceConfig()
+    )
 
 
 def test_every_epoch_of_the_moving_period_is_bounded_once_the_foot_has_landed():
@@ -78,11 +84,13 @@ def test_only_while_the_other_foot_stands():
 
 def test_a_moving_period_that_is_no_step_or_is_forgotten_is_left_alone():
     gait, _ = moving_period(slice(0, 100))
-    assert not Method(Config(max_swing=0.3)).on_stance_start(stance(0, 60, 68), gait)
+    assert not VaryingDistance(VaryingDistanceConfig(max_swing=0.3)).on_stance_start(
+        stance(0, 60, 68), gait
+    )
     gait.oldest = 30
-    assert not Method(Config()).on_stance_start(stance(0, 60, 68), gait)
+    assert not VaryingDistance(VaryingDistanceConfig()).on_stance_start(stance(0, 60, 68), gait)
     gait.oldest, gait.ended = 0, (-1, -1)
-    assert not Method(Config()).on_stance_start(stance(0, 60, 68), gait)
+    assert not VaryingDistance(VaryingDistanceConfig()).on_stance_start(stance(0, 60, 68), gait)
 
 
 @pytest.mark.parametrize("rate", (60.0, 100.0, 200.0))

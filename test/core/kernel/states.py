@@ -6,25 +6,33 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core import TrackerConfig
-from dualfoot_ros.core.kernel import layout as at
-from dualfoot_ros.core.kernel.workspace import Workspace
+from dualfoot_ros.core.initial_state import InitialState
+from dualfoot_ros.core.kernel import Workspace
+from dualfoot_ros.core.kernel import layout as lay
 
 SCALES = np.repeat([0.3, 0.1, 0.02, 1e-3, 0.05], 3)
-SAMPLE = at.RINGS + 1
+SAMPLE = lay.RINGS + 1
+
+
+def configured(config: TrackerConfig, rate_hz: float, memory_s: float) -> Workspace:
+    """Return a workspace with the constants of ``config``."""
+    space = Workspace(rate_hz, memory_s)
+    InitialState(config, space)
+    return space
 
 
 def random_workspace(seed: int, config: TrackerConfig | None = None) -> Workspace:
     """Return a workspace with moving feet, a full random covariance, and one sample for each."""
     rng = np.random.default_rng(seed)
-    space = Workspace(config or TrackerConfig(method="zupt"), 100.0, 0.1)
+    space = configured(config or TrackerConfig(method="zupt"), 100.0, 0.1)
     w = space.w
     for foot in range(2):
-        o = foot * at.FOOT
-        w[o : o + at.FOOT] = rng.normal(size=at.FOOT)
-        w[o + at.ROT : o + at.ROT + 9] = Rotation.random(random_state=rng).as_matrix().ravel()
-        w[o + at.BG : o + at.BA + 3] *= 0.02
-        w[o + at.ALPHA : o + at.GAMMA + 3] *= 0.02
-        lever = at.C_FOOT + foot * at.C_STRIDE + at.C_LEVER
+        o = foot * lay.FOOT
+        w[o : o + lay.FOOT] = rng.normal(size=lay.FOOT)
+        w[o + lay.ROT : o + lay.ROT + 9] = Rotation.random(random_state=rng).as_matrix().ravel()
+        w[o + lay.BG : o + lay.BA + 3] *= 0.02
+        w[o + lay.ALPHA : o + lay.GAMMA + 3] *= 0.02
+        lever = lay.C_FOOT + foot * lay.C_STRIDE + lay.C_LEVER
         w[lever : lever + 3] = rng.normal(size=3) * 0.1
     w[SAMPLE : SAMPLE + 12] = rng.normal(size=12) * np.repeat([8.0, 3.0, 8.0, 3.0], 3)
     root = rng.normal(size=(30, 30)) * np.tile(SCALES, 2)[:, None]
@@ -35,26 +43,26 @@ def random_workspace(seed: int, config: TrackerConfig | None = None) -> Workspac
 def set_covariance(space: Workspace, P: np.ndarray) -> None:
     """Write a (30, 30) covariance into the three blocks."""
     P = np.triu(P) + np.triu(P, 1).T
-    for start, part in ((at.PLL, P[:15, :15]), (at.PRR, P[15:, 15:]), (at.PLR, P[:15, 15:])):
-        space.w[start : start + at.BLOCK].reshape(15, at.ROW)[:, :15] = part
+    for start, part in ((lay.PLL, P[:15, :15]), (lay.PRR, P[15:, 15:]), (lay.PLR, P[:15, 15:])):
+        space.w[start : start + lay.BLOCK].reshape(15, lay.ROW)[:, :15] = part
 
 
 def nominal(w: np.ndarray, foot: int) -> tuple[np.ndarray, ...]:
     """Return copies of (position, velocity, C, gyro bias, accelerometer bias)."""
-    o = foot * at.FOOT
-    r, v, bg, ba = (w[o + i : o + i + 3].copy() for i in (at.POS, at.VEL, at.BG, at.BA))
-    return r, v, w[o + at.ROT : o + at.ROT + 9].reshape(3, 3).copy(), bg, ba
+    o = foot * lay.FOOT
+    r, v, bg, ba = (w[o + i : o + i + 3].copy() for i in (lay.POS, lay.VEL, lay.BG, lay.BA))
+    return r, v, w[o + lay.ROT : o + lay.ROT + 9].reshape(3, 3).copy(), bg, ba
 
 
 def put_error(w: np.ndarray, foot: int, error: np.ndarray) -> None:
     """Give the true state in ``w`` an error (15,), as the paper's signs have it."""
-    o = foot * at.FOOT
-    w[o + at.POS : o + at.POS + 3] += error[0:3]
-    w[o + at.VEL : o + at.VEL + 3] += error[3:6]
-    C = w[o + at.ROT : o + at.ROT + 9].reshape(3, 3)
+    o = foot * lay.FOOT
+    w[o + lay.POS : o + lay.POS + 3] += error[0:3]
+    w[o + lay.VEL : o + lay.VEL + 3] += error[3:6]
+    C = w[o + lay.ROT : o + lay.ROT + 9].reshape(3, 3)
     C[:] = Rotation.from_rotvec(-error[6:9]).as_matrix() @ C
-    w[o + at.BG : o + at.BG + 3] -= error[9:12]
-    w[o + at.BA : o + at.BA + 3] -= error[12:15]
+    w[o + lay.BG : o + lay.BG + 3] -= error[9:12]
+    w[o + lay.BA : o + lay.BA + 3] -= error[12:15]
 
 
 def error_between(estimate, truth) -> np.ndarray:

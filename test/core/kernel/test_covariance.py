@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import TrackerConfig
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.kernel.covariance import propagate_foot
 from dualfoot_ros.core.kernel.strapdown import mechanize
 
@@ -26,8 +26,8 @@ def mechanized_push(w, foot, dt):
     """Mechanize; return the attitude before it and the velocity increment less gravity."""
     _, v, C, _, _ = nominal(w, foot)
     mechanize(w, foot, dt, SAMPLE + 6 * foot)
-    push = w[foot * at.FOOT + at.VEL : foot * at.FOOT + at.VEL + 3] - v
-    return C, push + np.array([0.0, 0.0, w[at.C_GRAVITY] * dt])
+    push = w[foot * lay.FOOT + lay.VEL : foot * lay.FOOT + lay.VEL + 3] - v
+    return C, push + np.array([0.0, 0.0, w[lay.C_GRAVITY] * dt])
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -51,19 +51,19 @@ def test_the_covariance_stays_symmetric_to_the_bit_over_a_thousand_epochs():
         for foot in range(2):
             mechanize(space.w, foot, 0.01, SAMPLE + 6 * foot)
             propagate_foot(space.w, foot, 0.01)
-    for start in (at.PLL, at.PRR):
-        block = space.w[start : start + at.BLOCK].reshape(15, at.ROW)
+    for start in (lay.PLL, lay.PRR):
+        block = space.w[start : start + lay.BLOCK].reshape(15, lay.ROW)
         assert np.array_equal(block[:, :15], block[:, :15].T)
         assert not block[:, 15].any()
 
 
 def test_uncorrelated_feet_stay_uncorrelated_to_the_bit():
     space = random_workspace(6)
-    space.w[at.PLR : at.PLR + at.BLOCK] = 0.0
+    space.w[lay.PLR : lay.PLR + lay.BLOCK] = 0.0
     for foot in range(2):
         mechanize(space.w, foot, 0.01, SAMPLE + 6 * foot)
         propagate_foot(space.w, foot, 0.01)
-    assert not space.w[at.PLR : at.PLR + at.BLOCK].any()
+    assert not space.w[lay.PLR : lay.PLR + lay.BLOCK].any()
 
 
 @pytest.mark.parametrize("foot", (0, 1))
@@ -71,7 +71,7 @@ def test_small_errors_of_the_mechanization_grow_as_the_transition_matrix_says(fo
     """Perturb, mechanize, compare: neither sign nor frame of any block is taken on trust."""
     dt, size = 1e-3, 1e-5
     truth = random_workspace(11)
-    truth.w[at.C_BIAS_RATE] = 0.0
+    truth.w[lay.C_BIAS_RATE] = 0.0
     start = truth.w.copy()
     C, push = mechanized_push(truth.w, foot, dt)
     Phi = transition(C, push / dt, np.inf, dt)

@@ -9,24 +9,26 @@ from hypothesis import strategies as st
 
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.constraints.method import StancePhase
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import Workspace
+from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.kernel.detector import glrt
-from dualfoot_ros.core.kernel.workspace import Workspace
+
+from .states import configured
 
 CONFIG = TrackerConfig(method="zupt")
 
 
 def filled(samples: np.ndarray, g: float, bias: np.ndarray) -> Workspace:
     """Return a workspace whose history ends with the (N, 12) samples."""
-    space = Workspace(CONFIG, 100.0, 0.2)
+    space = configured(CONFIG, 100.0, 0.2)
     for k, row in enumerate(samples):
-        o = at.RINGS + at.SAMPLE * (k % space.ring) + 1
+        o = lay.RINGS + lay.SAMPLE * (k % space.ring) + 1
         space.w[o : o + 12] = row
-    space.n[at.N_EPOCH] = len(samples) - 1
+    space.n[lay.N_EPOCH] = len(samples) - 1
     for foot in range(2):
-        constants = at.C_FOOT + foot * at.C_STRIDE
-        space.w[constants + at.C_STILL_RATE : constants + at.C_STILL_RATE + 3] = bias
-        space.w[constants + at.C_STILL_NORM] = g
+        constants = lay.C_FOOT + foot * lay.C_STRIDE
+        space.w[constants + lay.C_STILL_RATE : constants + lay.C_STILL_RATE + 3] = bias
+        space.w[constants + lay.C_STILL_NORM] = g
     return space
 
 
@@ -37,7 +39,7 @@ def test_the_statistic_is_the_glrt_of_skog_over_the_newest_window(seed, count, f
     samples = rng.normal(size=(count, 12)) + np.repeat([5.0, 0.1, 5.0, 0.1], 3)
     g, bias = 9.8, rng.normal(size=3) * 0.05
     space = filled(samples, g, bias)
-    window = samples[-int(space.n[at.N_WINDOW]) :, 6 * foot : 6 * foot + 6]
+    window = samples[-int(space.n[lay.N_WINDOW]) :, 6 * foot : 6 * foot + 6]
     f, w = window[:, :3], window[:, 3:] - bias
     up = f.mean(axis=0) / np.linalg.norm(f.mean(axis=0))
     force = ((f - g * up) ** 2).sum(axis=1) / CONFIG.stance.force_std**2

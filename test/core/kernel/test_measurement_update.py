@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.joint_estimate import JointEstimate
 from dualfoot_ros.core.kernel import interpreted
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.kernel.measurement_update import zupt
 from dualfoot_ros.core.kernel.strapdown import mechanize
 
@@ -44,7 +44,7 @@ def moving(seed: int):
 def pivot_velocity(w: np.ndarray, foot: int) -> np.ndarray:
     """Return h(x): the estimated velocity of the point about which the foot pivots."""
     _, v, C, bg, _ = nominal(w, foot)
-    lever = at.C_FOOT + foot * at.C_STRIDE + at.C_LEVER
+    lever = lay.C_FOOT + foot * lay.C_STRIDE + lay.C_LEVER
     sample = w[SAMPLE + 6 * foot + 3 : SAMPLE + 6 * foot + 6]
     rate = C @ (sample - bg)
     return v + np.cross([rate[0], rate[1], 0.0], C @ w[lever : lever + 3])
@@ -63,7 +63,7 @@ def test_the_row_of_a_zero_velocity_update_is_the_derivative_of_the_pivot_veloci
             put_error(w, foot, error)
             numerical[:, i] += sign * pivot_velocity(w, foot) / (2.0 * size)
     zupt(space.w, foot)
-    rows = space.w[at.S_H : at.S_H + 96].reshape(3, 32)
+    rows = space.w[lay.S_H : lay.S_H + 96].reshape(3, 32)
     assert np.allclose(rows[:, 16 * foot : 16 * foot + 15], numerical, atol=1e-8)
     assert not rows[:, 16 * (1 - foot) : 16 * (1 - foot) + 16].any()
 
@@ -74,17 +74,17 @@ def test_a_zero_velocity_update_is_the_dense_joseph_update(seed, foot):
     space = moving(seed)
     before, P, config = space.w.copy(), space.covariance(), TrackerConfig()
     innovation = pivot_velocity(before, foot)
-    rate = before[foot * at.FOOT + at.RATE : foot * at.FOOT + at.RATE + 3]
+    rate = before[foot * lay.FOOT + lay.RATE : foot * lay.FOOT + lay.RATE + 3]
     zupt(space.w, foot)
     H = np.zeros((3, 30))
-    rows = space.w[at.S_H : at.S_H + 96].reshape(3, 32)
+    rows = space.w[lay.S_H : lay.S_H + 96].reshape(3, 32)
     H[:, 15 * foot : 15 * foot + 15] = rows[:, 16 * foot : 16 * foot + 15]
     R = np.eye(3) * (config.zupt.std**2 + config.zupt.rate_std**2 * rate @ rate)
     error, expected, S, nis = joseph(P, H, R, innovation)
     assert scaled(space.covariance() - expected, P) < 1e-12
     taken = errors_taken_off(before, space.w)
     assert np.allclose(taken, error, rtol=1e-9, atol=1e-12 * np.abs(error).max())
-    info = space.w[at.Z_LEFT + foot * at.ZUPT_INFO :][: at.ZUPT_INFO]
+    info = space.w[lay.Z_LEFT + foot * lay.ZUPT_INFO :][: lay.ZUPT_INFO]
     assert np.allclose(info[:3], innovation, atol=1e-13)
     assert np.allclose(info[3:12].reshape(3, 3), S, rtol=1e-12)
     assert info[12] == pytest.approx(nis, rel=1e-9)
@@ -114,10 +114,10 @@ def test_standing_still_considers_position_heading_and_the_other_foot(seed, foot
     space = moving(seed)
     before, P, z = space.w.copy(), space.covariance(), TrackerConfig().zupt
     innovation = pivot_velocity(before, foot)
-    rate = before[foot * at.FOOT + at.RATE : foot * at.FOOT + at.RATE + 3]
+    rate = before[foot * lay.FOOT + lay.RATE : foot * lay.FOOT + lay.RATE + 3]
     zupt(space.w, foot, True)
     H = np.zeros((3, 30))
-    rows = space.w[at.S_H : at.S_H + 96].reshape(3, 32)
+    rows = space.w[lay.S_H : lay.S_H + 96].reshape(3, 32)
     H[:, 15 * foot : 15 * foot + 15] = rows[:, 16 * foot : 16 * foot + 15]
     R = np.eye(3) * (z.still_std**2 + z.rate_std**2 * rate @ rate)
     K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
@@ -137,20 +137,22 @@ def test_an_update_leaves_the_covariance_symmetric_to_the_bit(still):
     for _ in range(50):
         for foot in range(2):
             zupt(space.w, foot, still)
-    for start in (at.PLL, at.PRR):
-        block = space.w[start : start + at.BLOCK].reshape(15, at.ROW)[:, :15]
+    for start in (lay.PLL, lay.PRR):
+        block = space.w[start : start + lay.BLOCK].reshape(15, lay.ROW)[:, :15]
         assert np.array_equal(block, block.T)
 
 
 def test_the_other_foot_is_untouched_to_the_bit_while_the_feet_are_uncorrelated():
     space = moving(4)
-    space.w[at.PLR : at.PLR + at.BLOCK] = 0.0
+    space.w[lay.PLR : lay.PLR + lay.BLOCK] = 0.0
     before = space.w.copy()
     zupt(space.w, 0)
-    right = slice(at.FOOT, 2 * at.FOOT)
+    right = slice(lay.FOOT, 2 * lay.FOOT)
     assert np.array_equal(space.w[right], before[right])
-    assert np.array_equal(space.w[at.PRR : at.PLR + at.BLOCK], before[at.PRR : at.PLR + at.BLOCK])
-    assert not np.array_equal(space.w[: at.FOOT], before[: at.FOOT])
+    assert np.array_equal(
+        space.w[lay.PRR : lay.PLR + lay.BLOCK], before[lay.PRR : lay.PLR + lay.BLOCK]
+    )
+    assert not np.array_equal(space.w[: lay.FOOT], before[: lay.FOOT])
 
 
 @given(seeds)
@@ -163,7 +165,7 @@ def test_an_exact_measurement_taken_twice_teaches_nothing_the_second_time(seed):
     estimate.update([row], [0.3], [0.0])
     settled = space.w.copy()
     estimate.update([row], [0.3], [0.0])
-    assert np.allclose(space.w[: at.STATE], settled[: at.STATE], atol=1e-9)
+    assert np.allclose(space.w[: lay.STATE], settled[: lay.STATE], atol=1e-9)
 
 
 def test_the_same_exact_row_twice_in_one_update_counts_once():
@@ -171,7 +173,7 @@ def test_the_same_exact_row_twice_in_one_update_counts_once():
     row = {0: 1.0, 4: 0.3, 15: -1.0}
     JointEstimate(once, interpreted()).update([row], [0.2], [0.0])
     JointEstimate(twice, interpreted()).update([row, row], [0.2, 0.2], [0.0, 0.0])
-    assert np.allclose(once.w[: at.STATE], twice.w[: at.STATE], atol=1e-9)
+    assert np.allclose(once.w[: lay.STATE], twice.w[: lay.STATE], atol=1e-9)
 
 
 def test_nothing_is_learnt_where_nothing_is_uncertain():
@@ -181,4 +183,4 @@ def test_nothing_is_learnt_where_nothing_is_uncertain():
     estimate = JointEstimate(space, interpreted())
     _, nis = estimate.update([{0: 1.0}], [0.5], [0.0])
     assert nis == 0.0
-    assert np.array_equal(space.w[: at.STATE], before[: at.STATE])
+    assert np.array_equal(space.w[: lay.STATE], before[: lay.STATE])

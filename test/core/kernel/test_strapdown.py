@@ -12,19 +12,19 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core import TrackerConfig
-from dualfoot_ros.core.kernel import layout as at
+from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.kernel.strapdown import mechanize, rotation_increment
-from dualfoot_ros.core.kernel.workspace import Workspace
 
 from ..harness import GRAVITY, quick_engine
+from .states import configured
 
-SAMPLE = at.RINGS
+SAMPLE = lay.RINGS
 
 
 def workspace() -> np.ndarray:
-    w = np.zeros(at.workspace_size(4))
-    w[at.C_GRAVITY] = GRAVITY
-    w[at.ROT : at.ROT + 9] = np.eye(3).ravel()
+    w = np.zeros(lay.workspace_size(4))
+    w[lay.C_GRAVITY] = GRAVITY
+    w[lay.ROT : lay.ROT + 9] = np.eye(3).ravel()
     return w
 
 
@@ -36,13 +36,13 @@ def run(w: np.ndarray, dt: float, forces, rates) -> None:
 
 
 def rotation(w: np.ndarray) -> np.ndarray:
-    return w[at.ROT : at.ROT + 9].reshape(3, 3)
+    return w[lay.ROT : lay.ROT + 9].reshape(3, 3)
 
 
 def increment(vector) -> np.ndarray:
     w = workspace()
     rotation_increment(w, *(float(v) for v in vector))
-    return w[at.S_ROTATION : at.S_ROTATION + 9].reshape(3, 3)
+    return w[lay.S_ROTATION : lay.S_ROTATION + 9].reshape(3, 3)
 
 
 def directions():
@@ -75,18 +75,18 @@ def test_a_constant_rate_turns_by_rate_times_time():
 
 def test_a_sensor_at_rest_stays_where_it_is_to_the_bit():
     w = workspace()
-    w[at.POS : at.POS + 3] = [1.0, -2.0, 0.5]
+    w[lay.POS : lay.POS + 3] = [1.0, -2.0, 0.5]
     run(w, 0.005, np.tile([0.0, 0.0, GRAVITY], (1000, 1)), np.zeros((1000, 3)))
-    assert w[at.VEL : at.VEL + 3].tolist() == [0.0, 0.0, 0.0]
-    assert w[at.POS : at.POS + 3].tolist() == [1.0, -2.0, 0.5]
+    assert w[lay.VEL : lay.VEL + 3].tolist() == [0.0, 0.0, 0.0]
+    assert w[lay.POS : lay.POS + 3].tolist() == [1.0, -2.0, 0.5]
 
 
 def test_free_fall_is_half_g_t_squared_whatever_the_attitude_does():
     w, dt, count = workspace(), 0.01, 300
     run(w, dt, np.zeros((count, 3)), np.tile([1.0, 2.0, -3.0], (count, 1)))
     t = dt * count
-    assert np.allclose(w[at.VEL : at.VEL + 3], [0.0, 0.0, -GRAVITY * t], rtol=1e-13)
-    assert np.allclose(w[at.POS : at.POS + 3], [0.0, 0.0, -0.5 * GRAVITY * t * t], rtol=1e-12)
+    assert np.allclose(w[lay.VEL : lay.VEL + 3], [0.0, 0.0, -GRAVITY * t], rtol=1e-13)
+    assert np.allclose(w[lay.POS : lay.POS + 3], [0.0, 0.0, -0.5 * GRAVITY * t * t], rtol=1e-12)
 
 
 def test_bias_is_taken_off_before_anything_else():
@@ -94,10 +94,10 @@ def test_bias_is_taken_off_before_anything_else():
     rng = np.random.default_rng(1)
     forces, rates = rng.normal(size=(50, 3)) * 5.0, rng.normal(size=(50, 3))
     bg, ba = np.array([0.01, -0.02, 0.03]), np.array([0.1, 0.2, -0.3])
-    biased[at.BG : at.BG + 3], biased[at.BA : at.BA + 3] = bg, ba
+    biased[lay.BG : lay.BG + 3], biased[lay.BA : lay.BA + 3] = bg, ba
     run(plain, 0.005, forces, rates)
     run(biased, 0.005, forces + ba, rates + bg)
-    assert np.allclose(plain[: at.BG], biased[: at.BG], rtol=0.0, atol=1e-12)
+    assert np.allclose(plain[: lay.BG], biased[: lay.BG], rtol=0.0, atol=1e-12)
 
 
 def circle_error(steps: int) -> float:
@@ -105,13 +105,13 @@ def circle_error(steps: int) -> float:
     rate, radius = 1.5, 2.0
     dt = 2.0 * math.pi / rate / steps
     w = workspace()
-    w[at.VEL] = rate * radius
+    w[lay.VEL] = rate * radius
     worst = 0.0
     for k in range(1, steps + 1):
         run(w, dt, [[0.0, rate * rate * radius, GRAVITY]], [[0.0, 0.0, rate]])
         angle = rate * dt * k
         truth = [radius * math.sin(angle), radius * (1.0 - math.cos(angle)), 0.0]
-        worst = max(worst, float(np.linalg.norm(w[at.POS : at.POS + 3] - truth)))
+        worst = max(worst, float(np.linalg.norm(w[lay.POS : lay.POS + 3] - truth)))
     return worst
 
 
@@ -145,8 +145,8 @@ def test_coning_drifts_a_hundredth_of_what_it_would_without_the_coning_term():
     tilt, frequency, dt, count = 0.05, 2.0 * math.pi * 5.0, 0.005, 4000
     alpha, truth = coning(tilt, frequency, dt, count)
     w = workspace()
-    w[at.ROT : at.ROT + 9] = Rotation.from_euler("Y", tilt).as_matrix().ravel()
-    w[at.ALPHA : at.ALPHA + 3] = coning(tilt, -frequency, dt, 1)[0][0] * [-1, -1, -1]
+    w[lay.ROT : lay.ROT + 9] = Rotation.from_euler("Y", tilt).as_matrix().ravel()
+    w[lay.ALPHA : lay.ALPHA + 3] = coning(tilt, -frequency, dt, 1)[0][0] * [-1, -1, -1]
     run(w, dt, np.zeros((count, 3)), alpha / dt)
     plain = Rotation.from_euler("Y", tilt)
     for a in alpha:
@@ -180,7 +180,7 @@ def test_sculling_is_compensated():
     for f, r in zip(forces, rates, strict=True):
         plain += turn.apply(f * dt) + np.array([0.0, 0.0, -GRAVITY * dt])
         turn = turn * Rotation.from_rotvec(r * dt)
-    error = np.abs(w[at.VEL + 1 : at.VEL + 3] - truth).max()
+    error = np.abs(w[lay.VEL + 1 : lay.VEL + 3] - truth).max()
     assert error < 0.01 * np.abs(plain[1:] - truth).max()
 
 
@@ -189,15 +189,15 @@ def test_the_attitude_is_still_a_rotation_after_a_million_steps():
     if engine.name == "interpreted":
         pytest.skip("numba is not installed; a million interpreted steps take too long")
     rng, chunk = np.random.default_rng(0), 10_000
-    space = Workspace(TrackerConfig(method="zupt"), 200.0, 0.1)
+    space = configured(TrackerConfig(method="zupt"), 200.0, 0.1)
     w, n = space.w, space.n
     for foot in range(2):
-        w[foot * at.FOOT + at.ROT : foot * at.FOOT + at.ROT + 9] = np.eye(3).ravel()
-    dts, out = np.full(chunk, 0.005), np.zeros((chunk, at.OUT))
+        w[foot * lay.FOOT + lay.ROT : foot * lay.FOOT + lay.ROT + 9] = np.eye(3).ravel()
+    dts, out = np.full(chunk, 0.005), np.zeros((chunk, lay.OUT))
     for _ in range(100):
         samples = rng.uniform(-10.0, 10.0, size=(chunk, 12))
         assert engine.advance(w, n, dts, samples, 0, chunk, out) == chunk
     for foot in range(2):
-        r = w[foot * at.FOOT + at.ROT : foot * at.FOOT + at.ROT + 9].reshape(3, 3)
+        r = w[foot * lay.FOOT + lay.ROT : foot * lay.FOOT + lay.ROT + 9].reshape(3, 3)
         assert np.abs(r @ r.T - np.eye(3)).max() < 1e-11
         assert np.linalg.det(r) == pytest.approx(1.0, abs=1e-11)

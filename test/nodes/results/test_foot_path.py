@@ -4,9 +4,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from dualfoot_ros.core import yaw_quaternion
 from dualfoot_ros.core.results.events import Event, EventKind
 from dualfoot_ros.nodes.results.foot_path import FootPath
-from dualfoot_ros.nodes.ros.messages import yaw_quaternion
 
 SECOND = 1_000_000_000
 

@@ -3,7 +3,7 @@ from rcl_interfaces.msg import ParameterType
 from rclpy.parameter import Parameter
 
 from dualfoot_ros.core.config import TrackerConfig, all_specs
-from dualfoot_ros.core.config_groups import Zupt
+from dualfoot_ros.core.config_groups import ZuptConfig
 from dualfoot_ros.core.errors import ConfigError
 from dualfoot_ros.nodes.ros.declared_parameters import declare, descriptor, group
 
@@ -24,7 +24,7 @@ def bench_node(**options):
 def test_every_parameter_of_the_tracker_is_declared_with_its_default(bench):
     node, values = declared(bench)
     assert TrackerConfig.from_mapping(values).to_mapping() == TrackerConfig().to_mapping()
-    assert node.get_parameter("zupt.std").value == Zupt().std
+    assert node.get_parameter("zupt.std").value == ZuptConfig().std
 
 
 def test_a_descriptor_tells_range_and_meaning():
@@ -57,4 +57,4 @@ def test_a_value_of_the_wrong_type_or_range_is_refused_by_name(bench, value):
 
 def test_a_group_is_the_part_of_the_values_that_it_declares(bench):
     _, values = declared(bench, {"zupt.std": 0.5})
-    assert group(Zupt, values, "zupt.") == Zupt(std=0.5)
+    assert group(ZuptConfig, values, "zupt.") == ZuptConfig(std=0.5)

@@ -6,17 +6,16 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
 
+from dualfoot_ros.core import quaternion_matrix, yaw_quaternion
 from dualfoot_ros.nodes.ros.messages import (
     imu_values,
     new_imu,
     pose_of,
     pose_yaw,
-    rotation_matrix,
     set_imu_values,
     set_pose,
     set_time,
     to_ns,
-    yaw_quaternion,
 )
 
 angles = st.floats(-3.1, 3.1)
@@ -46,7 +45,7 @@ def test_a_sample_without_orientation_says_so_as_in_rep_145():
 def test_rotation_matrix_is_that_of_scipy(a, b, c):
     rotation = Rotation.from_euler("xyz", [a, b, c])
     np.testing.assert_allclose(
-        rotation_matrix(rotation.as_quat()), rotation.as_matrix(), atol=1e-14
+        quaternion_matrix(rotation.as_quat()), rotation.as_matrix(), atol=1e-14
     )
 
 

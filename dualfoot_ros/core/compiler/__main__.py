@@ -1,9 +1,10 @@
-"""Fill the cache of the compiled kernel: ``python -m dualfoot_ros.core.kernel``."""
+"""Fill the cache of the compiled kernel: ``python -m dualfoot_ros.core.compiler``."""
 
 import os
 import sys
 
-from .engine import cache_directory, compiled
+from .cache import cache_directory
+from .compiled import compiled
 
 
 def main() -> int:

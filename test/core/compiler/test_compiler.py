@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from dualfoot_ros.core import DualFootTracker
-from dualfoot_ros.core.kernel import interpreted
-from dualfoot_ros.core.kernel.engine import ENTRIES, cache_directory
+from dualfoot_ros.core.compiler import cache_directory
+from dualfoot_ros.core.kernel import ENTRIES, interpreted, layout, turn
 
 from ..following import live
 from ..harness import walk
@@ -110,13 +110,40 @@ def test_importing_the_core_imports_neither_numba_nor_scipy():
 def test_the_cache_is_another_one_for_another_source_of_the_kernel(tmp_path, monkeypatch):
     monkeypatch.setenv("DUALFOOT_CACHE_DIR", str(tmp_path))
     here = cache_directory()
-    from dualfoot_ros.core.kernel import engine
+    monkeypatch.setattr(layout, "O_STANCE", layout.O_STANCE + 1)
+    moved = cache_directory()
+    monkeypatch.setattr(turn, "symmetrise", other_source := _renamed(turn.turn_rows))
+    assert other_source.__module__ == turn.__name__
+    assert len({here, moved, cache_directory()}) == 3
 
-    monkeypatch.setattr(engine.layout, "O_STANCE", engine.layout.O_STANCE + 1)
-    moved = engine.cache_directory()
-    monkeypatch.setattr(engine.turn, "symmetrise", other_source := _renamed(engine.turn.turn_rows))
-    assert other_source.__module__ == engine.turn.__name__
-    assert len({here, moved, engine.cache_directory()}) == 3
+
+SETTINGS = """
+import os, sys, threading
+import numba
+from pathlib import Path
+before = numba.config.CACHE_DIR
+seen, done = set(), threading.Event()
+def watch():
+    while not done.is_set():
+        seen.add(numba.config.CACHE_DIR)
+thread = threading.Thread(target=watch)
+thread.start()
+from dualfoot_ros.core.compiler import cache_directory, compiled
+compiled()
+done.set()
+thread.join()
+assert seen == {before}, seen
+assert list(cache_directory().glob("*.nbi"))
+"""
+
+
+def test_compiling_leaves_the_settings_of_numba_alone_at_every_moment(tmp_path):
+    pytest.importorskip("numba")
+    environment = {**os.environ, "DUALFOOT_CACHE_DIR": str(tmp_path), "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        [sys.executable, "-c", SETTINGS], env=environment, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
 
 
 def _renamed(function):

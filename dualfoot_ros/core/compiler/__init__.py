@@ -1,0 +1,10 @@
+"""The compiled form of the kernel: made by numba, kept in a cache, got ready in the background.
+
+The one part of the core that touches files, the environment, threads and processes.
+"""
+
+from .background import BackgroundEngine
+from .cache import cache_directory
+from .compiled import compiled
+
+__all__ = ["BackgroundEngine", "cache_directory", "compiled"]

@@ -1,0 +1,50 @@
+"""Getting the compiled kernel ready while the caller goes on with the interpreted one."""
+
+from __future__ import annotations
+
+import importlib
+import subprocess
+import sys
+import threading
+
+from ..kernel import Engine
+from .cache import READY, usable_cache
+from .compiled import compiled
+
+COMMAND = (sys.executable, "-m", __package__)
+
+
+class BackgroundEngine:
+    """Gets the compiled kernel ready.
+
+    A cold cache is filled by another process, so that the compiler never competes with the live
+    path for the interpreter; loading from a warm cache takes about a second in a thread.
+    """
+
+    def __init__(self) -> None:
+        """Start at once."""
+        self._ready: Engine | None = None
+        self._thread = threading.Thread(target=self._prepare, name="kernel", daemon=True)
+        self._thread.start()
+
+    def poll(self) -> Engine | None:
+        """Return the compiled kernel when it is ready, else None."""
+        return self._ready
+
+    def wait(self) -> Engine | None:
+        """Wait until the compiled kernel is ready; None when there is none (no numba)."""
+        self._thread.join()
+        return self._ready
+
+    def _prepare(self) -> None:
+        try:
+            importlib.import_module("numba")
+            directory = usable_cache()
+            if directory is not None and not (directory / READY).exists():
+                # A session of its own: Ctrl-C ends the caller only, and the cache is filled.
+                subprocess.run(
+                    COMMAND, check=False, stdout=subprocess.DEVNULL, start_new_session=True
+                )
+            self._ready = compiled()
+        except (ImportError, OSError):
+            self._ready = None

@@ -1,0 +1,59 @@
+"""Where the compiled kernel is kept: a directory named by all that the machine code depends on.
+
+numba looks at the file of the outermost function only and would keep stale code when an inner
+module changes, so the directory is keyed by the loaded code of the whole kernel.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+import tempfile
+from importlib import metadata
+from pathlib import Path
+
+from ..kernel import kernel_functions, layout
+
+READY = "ready"  # name of the file that says that every entry is in the cache
+
+
+def cache_directory() -> Path:
+    """Return the directory of the compiled kernel, made if it is not there.
+
+    ``DUALFOOT_CACHE_DIR`` overrides the user's cache directory.
+    """
+    text = f"{_loaded_code()} {sys.version} {_numba_version()}"
+    key = hashlib.sha256(text.encode()).hexdigest()[:16]
+    home = os.environ.get("XDG_CACHE_HOME") or str(Path("~/.cache").expanduser())
+    base = Path(os.environ.get("DUALFOOT_CACHE_DIR") or Path(home) / "dualfoot_ros")
+    directory = base / f"kernel-{key}"
+    directory.mkdir(parents=True, exist_ok=True)
+    return directory
+
+
+def usable_cache() -> Path | None:
+    """Return the cache directory; None where nothing can be written, and nothing is kept then."""
+    try:
+        directory = cache_directory()
+        with tempfile.TemporaryFile(dir=directory):
+            return directory
+    except OSError:
+        return None
+
+
+def _loaded_code() -> str:
+    """Return all that the compiled form depends on, as it was loaded (files may have changed)."""
+    codes = [
+        (name, f.__code__.co_code.hex(), f.__code__.co_consts, f.__code__.co_names)
+        for name, f in sorted(kernel_functions().items())
+    ]
+    offsets = sorted((k, v) for k, v in vars(layout).items() if isinstance(v, int))
+    return repr((codes, offsets))
+
+
+def _numba_version() -> str:
+    try:
+        return metadata.version("numba")
+    except metadata.PackageNotFoundError:
+        return "none"

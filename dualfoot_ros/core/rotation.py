@@ -1,0 +1,79 @@
+"""Rotations off the hot path: turns about the vertical, quaternions, matrices and yaw angles.
+
+Quaternions are Hamilton, (x, y, z, w), body to navigation; the navigation frame has z up.  The
+kernel has its own, in place, in ``kernel/strapdown.py`` and ``kernel/turn.py``.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .samples.series import FloatArray
+
+
+def about_z(angle: float) -> FloatArray:
+    """Return the rotation (3, 3) about the vertical by ``angle`` rad."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def rotate_vectors(vectors: FloatArray, rotation: FloatArray) -> FloatArray:
+    """Return vectors (N, 3) or (3,) rotated by ``rotation`` (3, 3)."""
+    rotated: FloatArray = vectors @ rotation.T
+    return rotated
+
+
+def rotate_covariances(matrices: FloatArray, rotation: FloatArray) -> FloatArray:
+    """Return covariances (..., 3, 3) rotated by ``rotation`` (3, 3)."""
+    rotated: FloatArray = rotation @ matrices @ rotation.T
+    return rotated
+
+
+def turn_quaternions(quaternions: FloatArray, yaw: float) -> FloatArray:
+    """Return attitudes (N, 4) turned about the vertical by ``yaw`` rad, all with w >= 0."""
+    c, s = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
+    x, y, z, w = quaternions.T.copy()
+    turned = np.stack([c * x - s * y, c * y + s * x, c * z + s * w, c * w - s * z], axis=1)
+    return np.where(turned[:, 3:] < 0.0, -turned, turned)
+
+
+def yaw_quaternion(yaw: float) -> FloatArray:
+    """Return the quaternion (4,) of a rotation about the vertical by ``yaw`` rad."""
+    return np.array([0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw)])
+
+
+def quaternion_yaw(quaternion: FloatArray) -> float:
+    """Return the heading of the body x axis of a quaternion (4,), rad."""
+    x, y, z, w = (float(v) for v in quaternion)
+    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def quaternion_matrix(quaternion: FloatArray) -> FloatArray:
+    """Return R_nb (3, 3) of a unit quaternion (4,)."""
+    x, y, z, w = quaternion.tolist()
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def skew(vector: FloatArray) -> FloatArray:
+    """Return the matrix (3, 3) of the cross product with ``vector`` (3,) from the left."""
+    x, y, z = vector
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def turn_between(before: FloatArray, after: FloatArray) -> float:
+    """Return the turn about the vertical between two R_nb (3, 3), rad, however the sensor sits."""
+    m = after @ before.T
+    return math.atan2(m[1, 0] - m[0, 1], m[0, 0] + m[1, 1])
+
+
+def mean_angle(a: float, b: float) -> float:
+    """Return the circular mean of two angles, rad (eq. (7) of Ma and Särkkä 2023)."""
+    return math.atan2(math.sin(a) + math.sin(b), math.cos(a) + math.cos(b))

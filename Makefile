@@ -9,7 +9,7 @@ OUTPUT := demo_output
 WORKERS := 2
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test pytest lint format types config bags bench clean
+.PHONY: help demo test pytest lint format types config golden bags bench clean
 
 help: ## show the targets
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sort | sed -E 's/^([a-z]+):.*## /\1|/' \
@@ -46,6 +46,9 @@ format: $(VENV)/.installed ## format the code with ruff
 
 config: $(VENV)/.installed ## write the generated files of config/ from the declarations
 	@$(BIN)/python scripts/write_config.py
+
+golden: $(VENV)/.kernel ## write the golden tracks of the tests anew (and say why in the commit)
+	@$(BIN)/python scripts/golden_tracks.py
 
 bags: $(VENV)/.kernel ## regenerate the recordings in bags/
 	@$(BIN)/python scripts/make_bags.py

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core import FloatArray
 from .event_waits import EventWaits
-from .line import REACH_S, Line, below, between
+from .line import REACH_S, Line, fit_below, fit_between
 
 SCALE_S = 0.005  # mean delay of a bin's fastest arrival above the line: guess worth two bins,
 SCALE_LIMITS_S = (2.0e-5, 0.05)  # and what it can be
@@ -51,7 +51,7 @@ class LowerEnvelope:
 
         Only after the first arrival.
         """
-        return below(np.array(self._fastest), self.scale_s, skew_scale)
+        return fit_below(np.array(self._fastest), self.scale_s, skew_scale)
 
     def add(self, time_s: float, delayed_s: float) -> bool:
         """Take one arrival; return True when it told something new and the line was refitted.
@@ -89,13 +89,13 @@ class LowerEnvelope:
 
     def _fit(self) -> None:
         points = np.array(self._fastest)
-        line, waits = below(points, self.scale_s, self._prior), self._waits
+        line, waits = fit_below(points, self.scale_s, self._prior), self._waits
         self.scale_s = self._scale(points, line)
         if len(waits):
             points = np.concatenate([points, waits.least])
-            self.line = between(points, waits.longest, waits.interval_s, line, self._prior)
+            self.line = fit_between(points, waits.longest, waits.interval_s, line, self._prior)
         else:
-            self.line = below(points, self.scale_s, self._prior)
+            self.line = fit_below(points, self.scale_s, self._prior)
 
     def _scale(self, points: FloatArray, line: Line) -> float:
         """Return the mean delay of the points (n, 2) above the line; stalled ones do not count."""

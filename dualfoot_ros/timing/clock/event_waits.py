@@ -27,7 +27,7 @@ class _Bin:
 class EventWaits:
     """Keep of every bin the waits nearest to nothing and, from both sides, to an interval.
 
-    They bound a line from above and from below (:func:`~.line.between`).  Whole intervals
+    They bound a line from above and from below (:func:`~.line.fit_between`).  Whole intervals
     that a wait had before are taken off: events failed then, whatever the line.
     """
 

@@ -6,11 +6,12 @@ their least value the most likely line maximises the sum of its heights under th
 stay below every point: the linear programme of Moon, Skelly and Towsley, "Estimation and removal
 of clock skew from network delay measurements" (INFOCOM 1999), whose solution is an edge of the
 lower convex hull (Zhang, Liu and Xia, "Clock synchronization algorithms for network measurements",
-INFOCOM 2002).  Here the same likelihood is kept whole and not only its maximum (:func:`below`).
+INFOCOM 2002).  Here the same likelihood is kept whole and not only its maximum
+(:func:`fit_below`).
 
 On a link that delivers at certain events only, as Bluetooth Low Energy does, a delay is the wait
 for the next event, which is shorter than the interval between events unless one failed.  So the
-clock is also *above* all points less an interval, but for a few (:func:`between`).
+clock is also *above* all points less an interval, but for a few (:func:`fit_between`).
 
 The least delay itself stays in the offset: no one-way measurement can tell it from an offset
 (Cristian 1989 needs the way back for that).
@@ -62,7 +63,7 @@ class Line:
         return math.sqrt(max(variance, 0.0))
 
 
-def below(points: FloatArray, scale_s: float, skew_scale: float) -> Line:
+def fit_below(points: FloatArray, scale_s: float, skew_scale: float) -> Line:
     """Return mean and spread of the lines below ``points`` (n, 2): time s, offset plus delay s.
 
     For skew b, with d_i(b) the delays above the highest line of that slope below all points,
@@ -85,7 +86,7 @@ def below(points: FloatArray, scale_s: float, skew_scale: float) -> Line:
     return _mean(center, low, skew, log_p, height - under, np.full(NODES, under**2))
 
 
-def between(
+def fit_between(
     points: FloatArray, waits: FloatArray, interval_s: float, near: Line, skew_scale: float
 ) -> Line:
     """Return mean and spread of the lines below ``points`` and within an interval of ``waits``.

@@ -1,4 +1,9 @@
-"""Which cycle the feet walk in turn at, how sure that is, and what to say when it is not."""
+"""The cycle at which two feet walk in turn: candidates, their scatter, the choice, its doubts.
+
+No two cycles last equally long.  Where a step is paired with its neighbours of the same walk, the
+middle between them hardly moves; a cycle off it moves by what the cycles differ by, and with the
+feet of two walks it wanders.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +18,8 @@ from .result import DOUBT
 
 LEAST_PEAK = 0.6  # correlation below which these are not two feet walking
 LEAST_CYCLES = 3.0
-MOST_UNEVEN = 0.05  # of a cycle, beyond which the feet do not walk together
-DOUBTFUL_UNEVEN = 0.016  # of a cycle, that is a confidence of one half
+LARGEST_SCATTER = 0.05  # of a cycle, beyond which the feet do not walk together
+DOUBTFUL_SCATTER = 0.016  # of a cycle, that is a confidence of one half
 DOUBTFUL_PEAK = 0.8  # correlation that is a confidence of one half
 CANDIDATES = 7  # cycles that are compared
 EVEN_MARGIN = 2.0  # preference over the next cycle that is a confidence of one half
@@ -31,20 +36,20 @@ FLOOR = 0.001  # of a cycle; more even than that is not told apart
 
 
 @dataclass(frozen=True)
-class Choice:
+class ChosenCycle:
     """The middle that was chosen, and how it compares."""
 
-    middle: Middle
+    offset: CandidateOffset
     second: float
-    uneven: float
+    phase_scatter: float
     margin: float
 
     @property
     def confidence(self) -> float:
         """0 to 1: told from other cycles, and alike and even enough for feet of one walk."""
         told = self.margin / (self.margin + EVEN_MARGIN)
-        even = 1.0 / (1.0 + (self.uneven / DOUBTFUL_UNEVEN) ** 4)
-        differ = max(1.0 - self.middle.height, 0.0) / (1.0 - DOUBTFUL_PEAK)
+        even = 1.0 / (1.0 + (self.phase_scatter / DOUBTFUL_SCATTER) ** 4)
+        differ = max(1.0 - self.offset.height, 0.0) / (1.0 - DOUBTFUL_PEAK)
         return min(told, even, 1.0 / (1.0 + differ**4))
 
 
@@ -55,65 +60,68 @@ def walking(foot: Signal) -> np.ndarray:
     return np.asarray(mean > max(0.2 * float(np.quantile(mean, 0.95)), 0.5))
 
 
-def choose(left: Signal, right: Signal, correlation: Correlation, walked_s: float) -> Choice:
-    """Return the middle that fits best by the whole and by its windows."""
-    middles = highest_middles(correlation, CANDIDATES)
-    windows = [unevenness(left, right, middle) for middle in middles]
+def choose_cycle(
+    left: Signal, right: Signal, correlation: Correlation, walked_s: float
+) -> ChosenCycle:
+    """Return the candidate that fits best by the whole and by its windows."""
+    candidates = candidate_offsets(correlation, CANDIDATES)
+    windows = [phase_scatter(left, right, candidate) for candidate in candidates]
     most = max(count for _, count in windows)
-    cycles = walked_s / middles[0].cycle_s
+    cycles = walked_s / candidates[0].cycle_s
 
     def preference(index: int) -> float:
         uneven = min(windows[index][0], 1.0)
         # windows overlap by half, so half of them are told apart
-        return PER_CYCLE * cycles * middles[index].height - 0.5 * most * float(np.log(uneven))
+        return PER_CYCLE * cycles * candidates[index].height - 0.5 * most * float(np.log(uneven))
 
-    order = sorted(range(len(middles)), key=preference, reverse=True)
+    order = sorted(range(len(candidates)), key=preference, reverse=True)
     best = order[0]
     margin = preference(best) - preference(order[1]) if len(order) > 1 else PER_CYCLE * cycles
-    second = max((m.height for k, m in enumerate(middles) if k != best), default=0.0)
-    return Choice(middles[best], second, windows[best][0], margin)
+    second = max((m.height for k, m in enumerate(candidates) if k != best), default=0.0)
+    return ChosenCycle(candidates[best], second, windows[best][0], margin)
 
 
-def check(choice: Choice, cycles: float, left: Signal, right: Signal) -> None:
+def check_gait(choice: ChosenCycle, cycles: float, left: Signal, right: Signal) -> None:
     """Raise a TimingError where these are not two feet of one walk."""
-    best = choice.middle
-    lengths = _lengths_apart(best.cycle_s, left, right)
+    best = choice.offset
+    lengths = _explain_lengths(best.cycle_s, left, right)
     if best.height < LEAST_PEAK or cycles < LEAST_CYCLES:
         raise TimingError(
             f"the feet do not walk together: best agreement {best.height:.3f} over "
             f"{cycles:.1f} gait cycles; needed are {LEAST_PEAK:.3f} and {LEAST_CYCLES:.1f}; "
             f"is this one walk, with a sensor on each foot?{lengths}"
         )
-    if MOST_UNEVEN < choice.uneven < float("inf"):
+    if LARGEST_SCATTER < choice.phase_scatter < float("inf"):
         raise TimingError(
             "the feet do not walk in turn: from step to step they are apart by "
-            f"{100.0 * choice.uneven:.1f} % of a cycle; at most {100.0 * MOST_UNEVEN:g} % is one "
-            f"walk; are both recordings of the same walk?{lengths}"
+            f"{100.0 * choice.phase_scatter:.1f} % of a cycle; at most "
+            f"{100.0 * LARGEST_SCATTER:g} % is one walk; are both recordings of the same walk?{lengths}"
         )
 
 
-def doubts(choice: Choice, left: Signal, right: Signal) -> tuple[str, ...]:
+def explain_doubt(choice: ChosenCycle, left: Signal, right: Signal) -> tuple[str, ...]:
     """Return what makes the choice doubtful, and what to do; nothing where it is sure."""
     if choice.confidence >= DOUBT:
         return ()
-    best = choice.middle
+    best = choice.offset
     if choice.margin < EVEN_MARGIN:
         why = f"another offset, a cycle of {best.cycle_s:.2f} s or more away, fits nearly as well"
-    elif choice.uneven == float("inf"):
+    elif choice.phase_scatter == float("inf"):
         why = "the feet walk together for too short to see whether they do so in turn"
     else:
         why = (
-            f"the feet agree by {best.height:.2f} and are apart by {100.0 * choice.uneven:.1f} % "
-            "of a cycle from step to step, as those of two walks may be"
+            f"the feet agree by {best.height:.2f} and are apart by "
+            f"{100.0 * choice.phase_scatter:.1f} % of a cycle from step to step, as those of two "
+            "walks may be"
         )
     return (
         f"doubtful: {why}; record for longer, with a stop in between, or shake both devices "
         "together first and use the method shake, or the method arrival on a live recording."
-        f"{_lengths_apart(best.cycle_s, left, right)}",
+        f"{_explain_lengths(best.cycle_s, left, right)}",
     )
 
 
-def _lengths_apart(cycle_s: float, left: Signal, right: Signal) -> str:
+def _explain_lengths(cycle_s: float, left: Signal, right: Signal) -> str:
     """Return a further cause, if the walk lasts longer on one clock than on the other."""
     feet = [np.flatnonzero(walking(foot)) for foot in (left, right)]
     one, two = (STEP_S * float(f[-1] - f[0]) if len(f) else 0.0 for f in feet)
@@ -128,7 +136,7 @@ def _lengths_apart(cycle_s: float, left: Signal, right: Signal) -> str:
 
 
 @dataclass(frozen=True)
-class Middle:
+class CandidateOffset:
     """Two neighbouring peaks: the lag between them, their distance (the cycle), mean height."""
 
     lag_s: float
@@ -136,8 +144,8 @@ class Middle:
     height: float
 
 
-def highest_middles(correlation: Correlation, count: int) -> list[Middle]:
-    """Return the middles of two peaks, the highest first."""
+def candidate_offsets(correlation: Correlation, count: int) -> list[CandidateOffset]:
+    """Return the middles between neighbouring peaks, the highest first."""
     from scipy.signal import find_peaks
 
     value = correlation.value
@@ -145,23 +153,23 @@ def highest_middles(correlation: Correlation, count: int) -> list[Middle]:
         value, height=0.5 * float(value.max()), distance=round(CYCLE_S[0] / STEP_S)
     )
     peaks = [correlation.peak(int(i)) for i in found]
-    middles = [
-        Middle(0.5 * (one[0] + two[0]), two[0] - one[0], 0.5 * (one[1] + two[1]))
+    candidates = [
+        CandidateOffset(0.5 * (one[0] + two[0]), two[0] - one[0], 0.5 * (one[1] + two[1]))
         for one, two in pairwise(peaks)
         if CYCLE_S[0] <= two[0] - one[0] <= CYCLE_S[1]
     ]
-    if not middles:
+    if not candidates:
         raise TimingError("no gait is seen in the recordings: no two peaks of agreement")
-    return sorted(middles, key=lambda m: -m.height)[:count]
+    return sorted(candidates, key=lambda m: -m.height)[:count]
 
 
-def unevenness(left: Signal, right: Signal, whole: Middle) -> tuple[float, int]:
+def phase_scatter(left: Signal, right: Signal, whole: CandidateOffset) -> tuple[float, int]:
     """Return by what share of a cycle the windows differ, rms, and how many there are.
 
     A straight line, a skew, is taken off where they span a minute.  Infinite when there are too
     few windows, or fewer than half of those that walk have a middle.
     """
-    points, walking = middles_of_windows(left, right, whole, WINDOW_S, HOP_S, 1.0)
+    points, walking = offsets_of_windows(left, right, whole, WINDOW_S, HOP_S, 1.0)
     if len(points) < max(LEAST_WINDOWS, walking / 2):
         return float("inf"), len(points)
     from scipy.stats import siegelslopes
@@ -174,8 +182,13 @@ def unevenness(left: Signal, right: Signal, whole: Middle) -> tuple[float, int]:
     return max(float(np.sqrt(squares.mean())) / whole.cycle_s, FLOOR), len(points)
 
 
-def middles_of_windows(
-    left: Signal, right: Signal, whole: Middle, window_s: float, hop_s: float, reach_cycles: float
+def offsets_of_windows(
+    left: Signal,
+    right: Signal,
+    whole: CandidateOffset,
+    window_s: float,
+    hop_s: float,
+    reach_cycles: float,
 ) -> tuple[FloatArray, int]:
     """Return (right stamp in s, lag in s) (N, 2) of the windows that walk; how many there are."""
     size, hop = round(window_s / STEP_S), round(hop_s / STEP_S)
@@ -192,13 +205,13 @@ def middles_of_windows(
         if min(len(part.values), len(other.values)) < size // 2 or part.values.mean() <= brisk:
             continue
         walking += 1
-        lag = _middle_near(correlate(part, other), whole)
+        lag = _offset_near(correlate(part, other), whole)
         if lag is not None:
             out.append((at + 0.5 * window_s + right.start_ns * 1e-9, lag))
     return np.array(out).reshape(-1, 2), walking
 
 
-def _middle_near(correlation: Correlation, whole: Middle) -> float | None:
+def _offset_near(correlation: Correlation, whole: CandidateOffset) -> float | None:
     half = 0.5 * whole.cycle_s
     one = correlation.maximum_near(whole.lag_s - half, 0.5 * half)
     two = correlation.maximum_near(whole.lag_s + half, 0.5 * half)

@@ -21,12 +21,12 @@ from .gait_cycle import (
     CYCLE_S,
     LARGEST_SKEW,
     LEAST_SPAN_S,
-    Middle,
-    check,
-    choose,
-    doubts,
-    highest_middles,
-    middles_of_windows,
+    CandidateOffset,
+    candidate_offsets,
+    check_gait,
+    choose_cycle,
+    explain_doubt,
+    offsets_of_windows,
     walking,
 )
 from .result import Offset
@@ -51,13 +51,13 @@ def offset_by_gait(left: ImuSeries, right: ImuSeries) -> Offset:
     slope = _coarse_slope(one, two)
     if slope:  # sharpen it, so that the correlation of the whole is sharp
         two = _strides("right", _scaled(right, slope, middle_ns))
-        first = highest_middles(correlate(one, two), 1)[0]
+        first = candidate_offsets(correlate(one, two), 1)[0]
         slope = (1.0 + slope) * (1.0 + _line(_windows(one, two, first), first.lag_s, 0)[1]) - 1.0
         two = _strides("right", _scaled(right, slope, middle_ns))
     walked_s = min(STEP_S * float(np.count_nonzero(walking(foot))) for foot in (one, two))
-    choice = choose(one, two, correlate(one, two), walked_s)
-    best, cycles = choice.middle, walked_s / choice.middle.cycle_s
-    check(choice, cycles, *recorded)
+    choice = choose_cycle(one, two, correlate(one, two), walked_s)
+    best, cycles = choice.offset, walked_s / choice.offset.cycle_s
+    check_gait(choice, cycles, *recorded)
     windows = _windows(one, two, best)
     offset_s, rest, slope_std, std_s = _line(windows, best.lag_s, middle_ns)
     slope = (1.0 + slope) * (1.0 + rest) - 1.0
@@ -74,11 +74,11 @@ def offset_by_gait(left: ImuSeries, right: ImuSeries) -> Offset:
             "second": choice.second,
             "cycle_s": best.cycle_s,
             "cycles": cycles,
-            "unevenness": choice.uneven,
+            "unevenness": choice.phase_scatter,
             "margin": choice.margin,
             "skew_std_ppm": float("nan") if slope_std is None else float(1e6 * slope_std),
         },
-        notes=doubts(choice, *recorded),
+        notes=explain_doubt(choice, *recorded),
     )
 
 
@@ -122,8 +122,8 @@ def _coarse_slope(left: Signal, right: Signal) -> float:
     return float(max(slopes.tolist(), key=lambda s: (height(s), -abs(s))))
 
 
-def _windows(left: Signal, right: Signal, whole: Middle) -> FloatArray:
-    return middles_of_windows(left, right, whole, WINDOW_S, WINDOW_S, 2.0)[0]
+def _windows(left: Signal, right: Signal, whole: CandidateOffset) -> FloatArray:
+    return offsets_of_windows(left, right, whole, WINDOW_S, WINDOW_S, 2.0)[0]
 
 
 def _line(

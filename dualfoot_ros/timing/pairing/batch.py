@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import FEET, BoolArray, ImuSeries, IntArray, TimingError
-from .grid_lookup import Places
+from .grid_lookup import GridLookup
 from .pairing_config import Sync
 from .stream_gate import Clean, clean
 
@@ -57,11 +57,11 @@ def align_with_report(
     found = {"left": clean(left, config), "right": clean(right, config)}
     feet = {foot: _increasing(foot, found[foot]) for foot in FEET}
     grid = _grid(feet, config)
-    places = [Places.of(feet[foot].stamp_ns, grid, config) for foot in FEET]
-    good = places[0].found & places[1].found
-    taken = [p.take(feet[f], grid, good) for f, p in zip(FEET, places, strict=True)]
+    lookups = [GridLookup.of(feet[foot].stamp_ns, grid, config) for foot in FEET]
+    good = lookups[0].found & lookups[1].found
+    taken = [p.take(feet[f], grid, good) for f, p in zip(FEET, lookups, strict=True)]
     counters = {f"{f}_{k}": n for f in FEET for k, n in found[f].counters.items()}
-    counters |= _outcomes(places, good)
+    counters |= _outcomes(lookups, good)
     return taken[0], taken[1], AlignReport(counters, _overlap_s(feet))
 
 
@@ -97,9 +97,9 @@ def _numbers(stamp_ns: IntArray, start: int, config: Sync) -> IntArray:
     return np.unique(np.concatenate(ranges)) if ranges else np.empty(0, dtype=np.int64)
 
 
-def _outcomes(places: list[Places], good: BoolArray) -> dict[str, int]:
-    outside = (places[0].outside | places[1].outside) & ~good
-    interpolated = (places[0].between | places[1].between) & good
+def _outcomes(lookups: list[GridLookup], good: BoolArray) -> dict[str, int]:
+    outside = (lookups[0].outside | lookups[1].outside) & ~good
+    interpolated = (lookups[0].between | lookups[1].between) & good
     return {
         "pairs": int(good.sum()),
         "interpolated": int(interpolated.sum()),

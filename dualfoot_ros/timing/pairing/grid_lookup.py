@@ -11,7 +11,7 @@ from .pairing_config import Sync
 
 
 @dataclass(frozen=True)
-class Places:
+class GridLookup:
     """For each stamp of the grid the samples around it, and which rule gives its value.
 
     Attributes
@@ -32,7 +32,7 @@ class Places:
     outside: BoolArray
 
     @classmethod
-    def of(cls, stamps: IntArray, grid: IntArray, config: Sync) -> Places:
+    def of(cls, stamps: IntArray, grid: IntArray, config: Sync) -> GridLookup:
         """Place ``grid`` among increasing ``stamps``."""
         before = np.searchsorted(stamps, grid, side="right") - 1
         inside = (before >= 0) & (before + 1 < len(stamps))

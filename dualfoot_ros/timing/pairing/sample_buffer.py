@@ -11,7 +11,7 @@ from .pairing_config import Sync
 CAPACITY = 20_000  # samples a foot; never reached at sane rates
 
 
-class Found(NamedTuple):
+class BufferedSample(NamedTuple):
     """The value of a stream at a time, or the name of the counter that says why there is none."""
 
     values: FloatArray | None
@@ -19,10 +19,10 @@ class Found(NamedTuple):
     next_ns: int = 0  # with "in_gap": the stream goes on here
 
 
-WAIT = Found(None, "wait")
+WAIT = BufferedSample(None, "wait")
 
 
-class Track:
+class SampleBuffer:
     """The recent samples of one foot, and its value at a time in between."""
 
     def __init__(self, config: Sync) -> None:
@@ -47,7 +47,7 @@ class Track:
     def _too_old(self, stamp_ns: int) -> bool:
         return self.newest_ns - stamp_ns > self._keep_ns or len(self.samples) > CAPACITY
 
-    def at(self, stamp_ns: int) -> Found:
+    def at(self, stamp_ns: int) -> BufferedSample:
         """Return the value at ``stamp_ns``; the times asked for must not decrease."""
         samples = self.samples
         while len(samples) > 1 and samples[1][0] <= stamp_ns:
@@ -56,17 +56,17 @@ class Track:
             return WAIT
         before_ns, before = samples[0]
         if abs(before_ns - stamp_ns) <= self._tolerance_ns:
-            return Found(before)
+            return BufferedSample(before)
         if before_ns > stamp_ns:
-            return Found(
+            return BufferedSample(
                 None, "late" if self._trimmed else "outside", before_ns - self._tolerance_ns
             )
         if len(samples) == 1:
             return WAIT
         after_ns, after = samples[1]
         if after_ns - stamp_ns <= self._tolerance_ns:
-            return Found(after)
+            return BufferedSample(after)
         if after_ns - before_ns > self._gap_ns:
-            return Found(None, "in_gap", after_ns - self._tolerance_ns)
+            return BufferedSample(None, "in_gap", after_ns - self._tolerance_ns)
         weight = 0.0 if self._holds else (stamp_ns - before_ns) / (after_ns - before_ns)
-        return Found(before + (after - before) * weight, "interpolated")
+        return BufferedSample(before + (after - before) * weight, "interpolated")

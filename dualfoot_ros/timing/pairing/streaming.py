@@ -18,7 +18,7 @@ import numpy as np
 from ...core import FEET, FloatArray, ImuPair
 from .grid import grid_of
 from .pairing_config import Sync
-from .sample_buffer import WAIT, Found, Track
+from .sample_buffer import WAIT, BufferedSample, SampleBuffer
 from .stream_gate import Gate, all_finite
 
 OUTCOMES = ("pairs", "interpolated", "in_gap", "late", "outside", "restarts")
@@ -49,7 +49,7 @@ class Aligner:
         """Forget all samples; the counters stay."""
         for gate in self._gates.values():
             gate.forget()
-        self._tracks = {foot: Track(self.config) for foot in FEET}
+        self._buffers = {foot: SampleBuffer(self.config) for foot in FEET}
         self._grid = grid_of(self.config)
 
     def push(self, foot: str, stamp_ns: int, values: FloatArray) -> list[ImuPair]:
@@ -68,12 +68,12 @@ class Aligner:
             self._outcomes["restarts"] += 1
             self.reset()
             gate.refusal(stamp_ns, True)
-        self._tracks[foot].append(stamp_ns, sample)
+        self._buffers[foot].append(stamp_ns, sample)
         self._grid.admit(foot, stamp_ns)
         return list(self._complete())
 
     def _complete(self) -> Iterator[ImuPair]:
-        left, right = self._tracks["left"], self._tracks["right"]
+        left, right = self._buffers["left"], self._buffers["right"]
         while (stamp_ns := self._grid.head()) is not None:
             found = left.at(stamp_ns), right.at(stamp_ns)
             missing = [f for f in found if f.values is None]
@@ -89,13 +89,13 @@ class Aligner:
             self._drop(lost[0] if lost else self._timeout())
 
     def _waited_too_long(self, stamp_ns: int) -> bool:
-        newest = max(t.newest_ns for t in self._tracks.values() if t.samples)
+        newest = max(t.newest_ns for t in self._buffers.values() if t.samples)
         return newest - stamp_ns > self.config.max_delay_ns
 
-    def _timeout(self) -> Found:
-        on = [track for track in self._tracks.values() if track.samples]
+    def _timeout(self) -> BufferedSample:
+        on = [buffer for buffer in self._buffers.values() if buffer.samples]
         until = max(t.newest_ns for t in on) - self.config.max_delay_ns
-        return Found(None, "late" if len(on) == 2 else "outside", until)
+        return BufferedSample(None, "late" if len(on) == 2 else "outside", until)
 
-    def _drop(self, lost: Found) -> None:
+    def _drop(self, lost: BufferedSample) -> None:
         self._outcomes[lost.why] += self._grid.advance(lost.next_ns)

@@ -95,7 +95,8 @@ def check_gait(choice: ChosenCycle, cycles: float, left: Signal, right: Signal) 
         raise TimingError(
             "the feet do not walk in turn: from step to step they are apart by "
             f"{100.0 * choice.phase_scatter:.1f} % of a cycle; at most "
-            f"{100.0 * LARGEST_SCATTER:g} % is one walk; are both recordings of the same walk?{lengths}"
+            f"{100.0 * LARGEST_SCATTER:g} % is one walk; are both recordings of the same walk?"
+            f"{lengths}"
         )
 
 

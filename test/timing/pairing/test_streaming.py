@@ -140,7 +140,7 @@ def test_the_memory_of_an_aligner_does_not_grow_while_one_foot_is_silent():
     aligner = Aligner(Sync(max_delay=0.25))
     for k in range(5000):
         aligner.push("right", k * 5 * MS, SAMPLE)
-    assert len(aligner._tracks["right"].samples) < 60
+    assert len(aligner._buffers["right"].samples) < 60
 
 
 def test_a_stream_that_begins_anew_is_taken_up_again_and_counted():

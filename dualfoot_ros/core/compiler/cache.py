@@ -48,7 +48,7 @@ def _loaded_code() -> str:
         (name, f.__code__.co_code.hex(), f.__code__.co_consts, f.__code__.co_names)
         for name, f in sorted(kernel_functions().items())
     ]
-    offsets = sorted((k, v) for k, v in vars(layout).items() if isinstance(v, int))
+    offsets = sorted((k, v) for k, v in vars(layout).items() if isinstance(v, int | float))
     return repr((codes, offsets))
 
 

@@ -17,6 +17,7 @@ from .errors import (
     TimingError,
 )
 from .parameters import Parameters, ParameterSpec, check, parameter
+from .refusals import Refusal, refusal_of
 from .results.events import FEET, Event, EventKind
 from .results.rows import clean_stance, to_trajectory, turn_rows
 from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stance_middles
@@ -70,6 +71,7 @@ __all__ = [
     "PoseSeries",
     "PressureSeries",
     "RecordingError",
+    "Refusal",
     "SeriesError",
     "SimulationError",
     "SourceError",
@@ -88,6 +90,7 @@ __all__ = [
     "nested",
     "parameter",
     "quaternion_yaw",
+    "refusal_of",
     "stance_bounds",
     "stance_middles",
     "stillness",

@@ -8,7 +8,6 @@ afterwards, as :meth:`dualfoot_ros.core.DualFootTracker.run` does it.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
@@ -56,22 +55,20 @@ def published_trajectory(
             "estimates); equal stamps are needed, at least one"
         )
     kept = _since_reset(events)
-    feet = [_finished(track, kept, index) for index, track in enumerate((left, right))]
+    feet = {"left": left, "right": right}
     if relative_covariance is None:
         relative_covariance = np.full((len(left), 3, 3), np.nan)
+    for event in kept:
+        if event.kind is EventKind.HEADING:
+            relative_covariance = _apply_heading(event, feet, relative_covariance)
+    tracks = [
+        replace(feet[foot], stance=clean_stance(left.stamp_ns, kept, index))
+        for index, foot in enumerate(FEET)
+    ]
     start_ns = int(left.stamp_ns[0])
     return Trajectory(
-        feet[0], feet[1], relative_covariance, kept, dict(counters or {}), start_ns, method
+        tracks[0], tracks[1], relative_covariance, kept, dict(counters or {}), start_ns, method
     )
-
-
-def heading_transform(event: Event) -> YawTransform:
-    """Return what a HEADING event does to the track of its foot so far."""
-    yaw = float(event.detail["yaw"])
-    pivot, shift = np.array(event.detail["pivot"]), np.array(event.detail["shift"])
-    c, s = math.cos(yaw), math.sin(yaw)
-    turned = np.array([c * pivot[0] - s * pivot[1], s * pivot[0] + c * pivot[1], pivot[2]])
-    return YawTransform(yaw, pivot + shift - turned)
 
 
 def _since_reset(events: Iterable[Event]) -> tuple[Event, ...]:
@@ -83,13 +80,40 @@ def _since_reset(events: Iterable[Event]) -> tuple[Event, ...]:
     return tuple(kept)
 
 
-def _finished(track: FootTrajectory, events: tuple[Event, ...], foot: int) -> FootTrajectory:
-    for event in events:
-        if event.kind is EventKind.HEADING and event.foot == FEET[foot]:
-            before = track.stamp_ns < event.detected_ns
-            turned = heading_transform(event).foot(cut(track, before))
-            track = _joined(turned, cut(track, ~before))
-    return replace(track, stance=clean_stance(track.stamp_ns, events, foot))
+def _apply_heading(
+    event: Event, feet: dict[str, FootTrajectory], relative: FloatArray
+) -> FloatArray:
+    """Turn the track of a foot as a HEADING event says; return the covariance of left minus right.
+
+    Until both headings are known the feet are uncorrelated, so that the covariance (N, 3, 3)
+    changes as the foot's own does; when both feet turn together (``joint``), it turns as a whole,
+    with the left one.
+    """
+    track = feet[event.foot]
+    before = track.stamp_ns < event.detected_ns
+    turn = YawTransform(float(event.detail["yaw"]), np.zeros(3))
+    turned = _turned(cut(track, before), turn, event)
+    feet[event.foot] = _joined(turned, cut(track, ~before))
+    relative = relative.copy()
+    if not event.detail.get("joint", False):
+        relative[before] += turned.position_covariance - track.position_covariance[before]
+    elif event.foot == FEET[0]:
+        relative[before] = turn.covariance(relative[before])
+    return relative
+
+
+def _turned(track: FootTrajectory, turn: YawTransform, event: Event) -> FootTrajectory:
+    """Return a track turned about the pivot of a HEADING event and shifted.
+
+    This is the arithmetic of the tracker, so that the bits are those of an offline run.
+    """
+    pivot, shift = np.array(event.detail["pivot"]), np.array(event.detail["shift"])
+    quaternion = turn.quaternion(track.quaternion)
+    return replace(
+        turn.foot(track),
+        position=turn.vector(track.position - pivot) + pivot + shift,
+        quaternion=np.where(quaternion[:, 3:] < 0.0, -quaternion, quaternion),
+    )
 
 
 def _joined(first: FootTrajectory, then: FootTrajectory) -> FootTrajectory:

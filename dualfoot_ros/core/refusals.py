@@ -22,7 +22,7 @@ class Refusal(StrEnum):
     words: str
     needs_warning: bool
 
-    def __new__(cls, counter: str, words: str, needs_warning: bool = False) -> Refusal:
+    def __new__(cls, counter: str, words: str = "", needs_warning: bool = False) -> Refusal:
         """Make a member whose value is ``counter``."""
         member = str.__new__(cls, counter)
         member._value_ = counter

@@ -9,9 +9,9 @@ from dualfoot_ros.drivers import (
     COUNTERS,
     FORMATS,
     SCHEMES,
-    Backoff,
-    Checks,
-    Conditioning,
+    BackoffConfig,
+    CheckConfig,
+    ConditioningConfig,
     SourceError,
     parse_uri,
 )
@@ -25,9 +25,9 @@ ROWS = [line for line in TEXT.splitlines() if line.startswith("| `")]
     [
         *(scheme.options for scheme in SCHEMES.values()),
         *(known.options for known in FORMATS.values()),
-        Backoff,
-        Conditioning,
-        Checks,
+        BackoffConfig,
+        ConditioningConfig,
+        CheckConfig,
     ],
 )
 def test_every_option_is_documented_with_its_default(group):

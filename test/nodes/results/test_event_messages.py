@@ -33,5 +33,5 @@ def test_an_event_without_measurement_is_read_back_too():
 
 
 def test_words_name_what_happened_and_that_it_was_refused():
-    said = events.words(CONSTRAINT)
+    said = events.summarise(CONSTRAINT)
     assert said.startswith("constraint of left (refused)") and "distance 0.1" in said

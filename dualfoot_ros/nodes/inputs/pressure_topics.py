@@ -59,7 +59,7 @@ class PressureInputs:
         best = min(reasons, key=lambda reason: reason.level)
         texts = "; ".join(reason.text for reason in reasons)
         text = f"aids.barometer is on but there is no air pressure: {texts}"
-        return Finding(best.kind, best.level, text, self.topic)
+        return Finding(best.kind, best.level, text, about="pressure")
 
 
 def _receiver(worn: str, take: Take) -> Callable[[FluidPressure], None]:

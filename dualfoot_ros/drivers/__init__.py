@@ -13,7 +13,7 @@ from .uri import SCHEMES, SourceUri, parse_uri
 
 Checks = CheckConfig
 Conditioning = ConditioningConfig
-"""Former names of the two, which programs of users have."""
+"""Short names of the two, which programs of users have."""
 
 __all__ = [
     "COUNTERS",

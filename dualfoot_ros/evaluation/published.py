@@ -42,7 +42,7 @@ def published_trajectory(
     ----------
     left, right : one row a published message, in its frame of that time; ``stance`` is replaced
     events : all events that were published, in order
-    relative_covariance : (N, 3, 3) of left minus right position, where it is known
+    relative_covariance : (N, 3, 3) of left minus right position as published, where it is known
 
     Raises
     ------

@@ -47,7 +47,7 @@ class BringupNode(Node):
 
 
 def build(**options: Any) -> Graph:
-    """Make the nodes; the graph is done a moment after its bag, or the files of both feet, are.
+    """Make the nodes; the graph ends shortly after its bag or the files of both feet.
 
     It fails when a source has failed for good, which a device that is not there yet has not.
 

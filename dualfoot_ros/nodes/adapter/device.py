@@ -22,12 +22,12 @@ Take = Callable[[int | None, int, FloatArray, Vector | None], None]
 
 
 class Device:
-    """Hands on ``(device_ns or None, arrival_ns, values (6,), field (3,) T or None)``.
+    """A sensor whose samples are handed to ``take`` from a thread of its own.
 
-    It does so from a thread of its own.  ``begin`` is called from there before the first sample,
-    with an event that is set when the device is stopped: a file waits in it for its listeners.
-    ``ended`` is called from there too, once: without a reason when a file is over, with one when
-    reading has failed for good.
+    ``take`` is called with device time (ns, or None), arrival (ns), values (6,) and field (3,) T
+    or None.  ``begin`` is called from the same thread before the first sample, with an event that
+    is set when the device is stopped: a file waits there for its listeners.  ``ended`` is called
+    once: without a reason when a file is over, with one when reading has failed for good.
     """
 
     def __init__(
@@ -102,7 +102,7 @@ class Device:
     def _change(self, state: State, reason: str) -> None:
         log, uri = self._node.get_logger(), self.source.uri
         if state is State.CONNECTED:
-            if self.source.reader.counters["opened"] == 1:  # to open again is no sign of life
+            if self.source.reader.counters["opened"] == 1:  # opening again shows nothing
                 self._last_s = time.monotonic()
             log.info(f"source '{uri}' is connected")
         elif state is State.WAITING and self._state is not State.WAITING:
@@ -115,7 +115,7 @@ class Device:
 
     def _wait_to_begin(self, stop: threading.Event) -> None:
         if self._begin is not None:
-            self._last_s = math.inf  # waiting is no silence
+            self._last_s = math.inf  # who waits is not silent
             self._begin(stop)
             self._last_s = time.monotonic()
 
@@ -205,7 +205,7 @@ class Device:
         if counters["samples"] or not counters["bytes"]:
             return silence(who, counters["samples"] > 0, silent_s, self._config)
         text = (
-            f"source '{uri}' sends bytes but no sample was found in {counters['bytes']}: "
+            f"source '{uri}' sends bytes but no sample was found in {counters['bytes']} of them: "
             "check format and baud, and what the device is set to send"
         )
         text += f" ({reasons})" if reasons else ""
@@ -215,6 +215,6 @@ class Device:
         """Return the text about datagrams that come from others than the peers only."""
         peers = ", ".join(sorted(self.source.transport.peers))
         return (
-            f"source '{self.source.uri}' takes nothing: it got {self._list_strangers()}, which is "
-            f"not among the peers ({peers}): check peers"
+            f"source '{self.source.uri}' accepts nothing: it received {self._list_strangers()}, "
+            f"which is not among the peers ({peers}): check peers"
         )

@@ -43,7 +43,7 @@ class CollectorNode(Node):
         self.events.extend(event_messages.from_message(message))
 
     def trajectory(self, method: str, counters: Mapping[str, int]) -> Trajectory:
-        """Return both tracks, turned by the headings that were announced after the fact.
+        """Return both tracks, turned by the headings that were announced later.
 
         Raises
         ------

@@ -63,7 +63,7 @@ class LiveGraph:
     ) -> None:
         self.context = context
         self._names = list(configs)
-        # The numbers of the process keep the demonstration apart from any other graph.
+        # A number of its own keeps this graph apart from any other.
         self._space = f"dualfoot_{time.time_ns() % 10**9}"
         self._nodes: list[Node] = []
         try:

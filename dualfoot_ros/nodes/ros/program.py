@@ -93,8 +93,8 @@ def started(argv: Sequence[str]) -> Iterator[None]:
     DualFootError
         When ROS cannot read its arguments or parameter files.
     """
-    # rclpy ends the context at SIGINT; a KeyboardInterrupt besides could strike anywhere, even in
-    # a callback of the import machinery, which can only print it.
+    # rclpy ends the context at SIGINT; a KeyboardInterrupt as well could come anywhere, even in a
+    # callback of the import machinery, which can only print it.
     signal.signal(signal.SIGINT, lambda *_: None)
     with _ros_arguments():
         rclpy.init(args=["", *argv])

@@ -57,6 +57,14 @@ def test_the_python_example_names_what_exists():
     assert all(hasattr(drivers, name.strip()) for name in names.split(","))
 
 
+def test_the_short_names_stand_for_the_same_classes():
+    import dualfoot_ros.drivers as drivers
+
+    short = re.findall(r"`(\w+)` \(`(\w+)` for short\)", TEXT)
+    assert len(short) == 2
+    assert all(getattr(drivers, name) is getattr(drivers, other) for name, other in short)
+
+
 def test_what_the_document_says_is_refused_is_refused():
     with pytest.raises(SourceError):
         parse_uri("udp://:8000?format=ximu3&no_such=1")

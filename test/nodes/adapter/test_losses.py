@@ -146,7 +146,7 @@ def test_two_boards_on_one_port_are_named_with_what_to_do(boards, capfd):
 
 def test_datagrams_of_a_stranger_only_are_said_with_his_address(boards):
     sending = boards("&peers=127.0.0.7")
-    said = sending.until(ERROR, "takes nothing: it got ")
+    said = sending.until(ERROR, "accepts nothing: it received ")
     assert "datagrams from 127.0.0.1," in said and "peers (127.0.0.7)" in said
     assert "from 127.0.0.1" in status_values(sending.adapter.reports[-1])["foreign senders"]
 

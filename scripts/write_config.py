@@ -19,7 +19,7 @@ DEFAULT = """\
 
 """
 NODES = """\
-# Every parameter of the nodes with its default, as declared in dualfoot_ros/options.py; those of
+# Every parameter of the nodes with its default, as declared in dualfoot_ros/settings/nodes.py; those of
 # the tracker (config/default.yaml) may be added to any section, or stand below '/**:'.
 # Written by `make config`: copy it, change the copy, and give it to bringup or to any node:
 #   ros2 run dualfoot_ros bringup --ros-args --params-file mine.yaml
@@ -29,7 +29,7 @@ TABLES = """\
 # Parameters
 
 Written by `make config` from the declarations in `dualfoot_ros/core/` and
-`dualfoot_ros/options.py`: change those, not this file.  A key is written dotted (`--set
+`dualfoot_ros/settings/nodes.py`: change those, not this file.  A key is written dotted (`--set
 zupt.std=0.02`) or nested (YAML).  A value out of range is refused with its name, the value and
 what is allowed; a name that does not exist is refused offline and warned of by the nodes.
 

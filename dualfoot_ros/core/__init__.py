@@ -17,6 +17,7 @@ from .errors import (
     TimingError,
 )
 from .parameters import Parameters, ParameterSpec, check, parameter
+from .refusals import Refusal, refusal_of
 from .results.events import FEET, Event, EventKind
 from .results.payloads import Details, DistanceLimit, Passing, Reason, YawTurn
 from .results.rows import clean_stance, to_trajectory, turn_rows
@@ -83,6 +84,7 @@ __all__ = [
     "PressureSeries",
     "Reason",
     "RecordingError",
+    "Refusal",
     "SeriesError",
     "SimulationError",
     "SourceError",
@@ -105,6 +107,7 @@ __all__ = [
     "parameter",
     "quaternion_matrix",
     "quaternion_yaw",
+    "refusal_of",
     "stance_bounds",
     "stance_middles",
     "stillness",

@@ -1,24 +1,27 @@
-"""Is what a sensor sends plausible?  Rate, range, clipping, axes that are stuck."""
+"""Plausibility checks of a sensor's samples: rate, range, clipping, axes that are stuck."""
 
 from __future__ import annotations
 
 import math
 from collections import Counter, deque
+from collections.abc import Iterator
 from dataclasses import dataclass
+from enum import StrEnum
+from typing import NamedTuple
 
-from ..core import Parameters, parameter
+from ..core import Parameters, Refusal, parameter
 from .sample import Sample
 
-AXES = tuple(f"{what} {axis}" for what in ("specific force", "angular rate") for axis in "xyz")
-WINDOW = 256  # intervals the rate is told from
+AXES = tuple(f"{name} {axis}" for name in ("specific force", "angular rate") for axis in "xyz")
+WINDOW = 256  # intervals from which the rate is taken
 AT_THE_END = 0.995  # of the range
 BEYOND = 1.5  # times the range: no sensor reads that, the bytes were damaged
 NS = 1_000_000_000
 
 
 @dataclass(frozen=True)
-class Checks(Parameters):
-    """What is expected of a sensor; 0 where it is not known."""
+class CheckConfig(Parameters):
+    """Expected properties of a sensor; 0 where one is not known."""
 
     rate: float = parameter(0.0, "samples a second", unit="Hz", minimum=0.0, maximum=10000.0)
     rate_tolerance: float = parameter(
@@ -38,16 +41,36 @@ class Checks(Parameters):
     )
 
 
+class SensorFault(StrEnum):
+    """Faults of a sensor that its samples show."""
+
+    STUCK_SENSOR = "stuck_sensor"
+    STUCK_AXIS = "stuck_axis"
+    WRONG_RATE = "wrong_rate"
+    CLIPPED_FORCE = "clipped_force"
+    CLIPPED_RATE = "clipped_rate"
+
+
+class SensorFinding(NamedTuple):
+    """A fault that was found: its kind for programs, a text for people."""
+
+    kind: SensorFault
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
 class SensorCheck:
-    """Look at every sample of one sensor.
+    """Checks of every sample of one sensor.
 
     ``counters`` holds ``seen``, ``clipped_force``, ``clipped_rate`` (samples at the end of the
     range) and ``out_of_range`` (samples refused, far beyond it).
     """
 
-    def __init__(self, options: Checks | None = None) -> None:
+    def __init__(self, config: CheckConfig | None = None) -> None:
         """Start with no sample seen."""
-        self.options = options or Checks()
+        self.config = config or CheckConfig()
         self.counters: Counter[str] = Counter()
         self._runs = [0] * 6
         self._last: tuple[float, ...] | None = None
@@ -60,16 +83,16 @@ class SensorCheck:
         self._follow_time(sample)
         force = max(map(abs, sample.specific_force))
         rate = max(map(abs, sample.angular_rate))
-        if _beyond(force, self.options.force_range) or _beyond(rate, self.options.rate_range):
-            self.counters["out_of_range"] += 1
+        if _is_beyond(force, self.config.force_range) or _is_beyond(rate, self.config.rate_range):
+            self.counters[Refusal.OUT_OF_RANGE] += 1
             return False
-        self.counters["clipped_force"] += _clipped(force, self.options.force_range)
-        self.counters["clipped_rate"] += _clipped(rate, self.options.rate_range)
+        self.counters[SensorFault.CLIPPED_FORCE] += _is_clipped(force, self.config.force_range)
+        self.counters[SensorFault.CLIPPED_RATE] += _is_clipped(rate, self.config.rate_range)
         self._follow_runs((*sample.specific_force, *sample.angular_rate))
         return True
 
     def interrupt(self) -> None:
-        """Say that samples are missing here, so that the interval to the next tells no rate."""
+        """Mark that samples are missing here, so that the interval to the next gives no rate."""
         self._last_time = None
 
     @property
@@ -81,37 +104,51 @@ class SensorCheck:
     @property
     def stuck(self) -> tuple[str, ...]:
         """Names of the axes that read the same all the time; all six for a frozen sensor."""
-        if min(self._runs) >= self.options.stuck_after:
+        if self._is_frozen():
             return AXES
-        limit = self.options.stuck_axis_after
+        limit = self.config.stuck_axis_after
         return tuple(name for name, run in zip(AXES, self._runs, strict=True) if run >= limit)
 
     @property
-    def findings(self) -> list[str]:
-        """What is wrong, in words; empty when nothing is."""
-        found = []
-        if self.stuck == AXES:
-            found.append(f"the sensor is stuck: {min(self._runs)} equal samples in a row")
+    def findings(self) -> list[SensorFinding]:
+        """Faults of the sensor, each with a text; empty when there are none."""
+        return [*self._check_stuck(), *self._check_rate(), *self._check_clipping()]
+
+    def _check_stuck(self) -> Iterator[SensorFinding]:
+        if self._is_frozen():
+            text = f"the sensor is stuck: {min(self._runs)} equal samples in a row"
+            yield SensorFinding(SensorFault.STUCK_SENSOR, text)
         elif self.stuck:
-            found.append(f"an axis is stuck: {', '.join(self.stuck)}")
-        if self._rate_is_off():
-            found.append(
-                f"it sends {self.rate_hz:.1f} samples a second where {self.options.rate:g} are "
+            yield SensorFinding(
+                SensorFault.STUCK_AXIS, f"an axis is stuck: {', '.join(self.stuck)}"
+            )
+
+    def _check_rate(self) -> Iterator[SensorFinding]:
+        expected = self.config.rate
+        if not expected or len(self._intervals) < WINDOW // 4:
+            return
+        if abs(self.rate_hz - expected) > self.config.rate_tolerance * expected:
+            text = (
+                f"the sensor sends {self.rate_hz:.1f} samples a second where {expected:g} are "
                 "expected"
             )
-        for counter, what in (("clipped_force", "accelerometer"), ("clipped_rate", "gyroscope")):
-            if self.counters[counter]:
-                found.append(
-                    f"the {what} was at the end of its range in {self.counters[counter]} of "
+            yield SensorFinding(SensorFault.WRONG_RATE, text)
+
+    def _check_clipping(self) -> Iterator[SensorFinding]:
+        sensors = {
+            SensorFault.CLIPPED_FORCE: "accelerometer",
+            SensorFault.CLIPPED_RATE: "gyroscope",
+        }
+        for fault, name in sensors.items():
+            if count := self.counters[fault]:
+                text = (
+                    f"the {name} was at the end of its range in {count} of "
                     f"{self.counters['seen']} samples"
                 )
-        return found
+                yield SensorFinding(fault, text)
 
-    def _rate_is_off(self) -> bool:
-        expected = self.options.rate
-        if not expected or len(self._intervals) < WINDOW // 4:
-            return False
-        return abs(self.rate_hz - expected) > self.options.rate_tolerance * expected
+    def _is_frozen(self) -> bool:
+        return min(self._runs) >= self.config.stuck_after
 
     def _follow_runs(self, values: tuple[float, ...]) -> None:
         if self._last is not None:
@@ -134,9 +171,9 @@ class SensorCheck:
         self._last_time = time, modulus
 
 
-def _clipped(value: float, limit: float) -> bool:
+def _is_clipped(value: float, limit: float) -> bool:
     return 0.0 < AT_THE_END * limit <= value
 
 
-def _beyond(value: float, limit: float) -> bool:
+def _is_beyond(value: float, limit: float) -> bool:
     return 0.0 < BEYOND * limit < value

@@ -1,4 +1,4 @@
-"""From the sensor's axes and units to forward-left-up and SI."""
+"""Conversion from the sensor's axes and units to forward-left-up and SI."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from .sample import Sample
 
 
 @dataclass(frozen=True)
-class Conditioning(Mounting):
-    """How the sensor sits on the foot, and the units of what it sends."""
+class ConditioningConfig(Mounting):
+    """Mounting of the sensor on the foot, and the units it sends."""
 
     force_unit: str = parameter(
         "m/s^2", "unit of the specific force as it comes", choices=("m/s^2", "g")
@@ -21,20 +21,20 @@ class Conditioning(Mounting):
 
 
 class Conditioner:
-    """Turn and scale samples."""
+    """Rotation and scale of the samples of one sensor."""
 
-    def __init__(self, options: Conditioning | None = None) -> None:
-        """Work out the rotation.
+    def __init__(self, config: ConditioningConfig | None = None) -> None:
+        """Compute the rotation.
 
         Raises
         ------
         ConfigError
-            When ``axes`` are not three different, right-handed ones.
+            When ``axes`` are not three different axes, right-handed.
         """
-        options = options or Conditioning()
-        self.rotation = options.rotation()
-        self._force = FORCE_UNITS[options.force_unit]
-        self._rate = RATE_UNITS[options.rate_unit]
+        config = config or ConditioningConfig()
+        self.rotation = config.rotation()
+        self._force = FORCE_UNITS[config.force_unit]
+        self._rate = RATE_UNITS[config.rate_unit]
         self._idle = self.rotation == IDENTITY and self._force == self._rate == 1.0
 
     def apply(self, sample: Sample) -> Sample:
@@ -43,13 +43,13 @@ class Conditioner:
             return sample
         field = sample.magnetic_field
         return sample._replace(
-            specific_force=_turned(self.rotation, sample.specific_force, self._force),
-            angular_rate=_turned(self.rotation, sample.angular_rate, self._rate),
-            magnetic_field=None if field is None else _turned(self.rotation, field, 1.0),
+            specific_force=_turn(self.rotation, sample.specific_force, self._force),
+            angular_rate=_turn(self.rotation, sample.angular_rate, self._rate),
+            magnetic_field=None if field is None else _turn(self.rotation, field, 1.0),
         )
 
 
-def _turned(matrix: Matrix, vector: Vector, factor: float) -> Vector:
+def _turn(matrix: Matrix, vector: Vector, factor: float) -> Vector:
     """Return ``factor`` times ``matrix`` times ``vector``."""
     x, y, z = matrix
     return (factor * dot(x, vector), factor * dot(y, vector), factor * dot(z, vector))

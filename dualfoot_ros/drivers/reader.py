@@ -1,4 +1,4 @@
-"""The thread that reads a transport, and opens it again when the link is lost."""
+"""Thread that reads a transport, and opens it again when the link is lost."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from ..core import Parameters, parameter
 from .transports.transport import Transport
 
 FACTOR = 2.0
-STOP_S = 15.0  # the longest a transport may take to give up what it is doing
+STOP_S = 15.0  # the longest that a transport may take to return from open or read
 
 
 class State(enum.Enum):
-    """Where a reader stands."""
+    """State of a reader."""
 
     CONNECTING = "connecting"
     """The link is tried for the first time."""
     WAITING = "waiting"
-    """The link is not there; it is tried again and again."""
+    """The link cannot be made or was lost; it is tried again and again."""
     CONNECTED = "connected"
     ENDED = "ended"
     """The file is over."""
@@ -33,8 +33,8 @@ class State(enum.Enum):
 
 
 @dataclass(frozen=True)
-class Backoff(Parameters):
-    """How long to wait before a lost link is tried again: twice as long each time."""
+class BackoffConfig(Parameters):
+    """Waits before a lost link is tried again: twice as long each time."""
 
     retry_first: float = parameter(
         0.1, "wait before the first try", unit="s", minimum=0.001, maximum=60.0
@@ -45,10 +45,10 @@ class Backoff(Parameters):
 
 
 class Reader:
-    """Read a transport in a thread of its own and hand on what comes.
+    """Thread that reads a transport and hands on what comes.
 
     ``on_bytes(data, arrival_ns)`` and ``on_state(state, reason)`` are called from that thread.
-    ``counters`` holds ``opened``, ``lost_links`` (that broke), ``not_opened`` (vain tries) and
+    ``counters`` holds ``opened``, ``lost_links``, ``not_opened`` (failed tries) and
     ``received_bytes``.
     """
 
@@ -57,7 +57,7 @@ class Reader:
         transport: Transport,
         on_bytes: Callable[[bytes, int], None],
         on_state: Callable[[State, str], None] | None = None,
-        backoff: Backoff | None = None,
+        backoff: BackoffConfig | None = None,
         clock: Callable[[], int] = time.time_ns,
     ) -> None:
         """Prepare; :meth:`start` starts.  ``clock`` gives arrival times in ns."""
@@ -69,7 +69,7 @@ class Reader:
         self._transport = transport
         self._on_bytes = on_bytes
         self._on_state = on_state or (lambda state, reason: None)
-        self._backoff = backoff or Backoff()
+        self._backoff = backoff or BackoffConfig()
         self._clock = clock
         self._wait_s = self._backoff.retry_first
         self._thread: threading.Thread | None = None
@@ -119,7 +119,7 @@ class Reader:
             try:
                 data = self._transport.read()
                 now_s = time.monotonic()
-                self._heed_silence(now_s - last_s, data)
+                self._check_silence(now_s - last_s, data)
             except OSError as error:
                 return self._give_up("lost_links", error)
             if data is None:
@@ -132,7 +132,7 @@ class Reader:
                 self._on_bytes(data, self._clock())
         return False
 
-    def _heed_silence(self, silent_s: float, data: bytes | None) -> None:
+    def _check_silence(self, silent_s: float, data: bytes | None) -> None:
         if data == b"" and 0.0 < self._transport.silence_s < silent_s:
             raise TimeoutError(f"nothing came for {silent_s:.1f} s")
 

@@ -1,4 +1,4 @@
-"""One sample of one inertial sensor, in SI units whatever the device sends."""
+"""Sample of an inertial sensor, in SI units whatever the device sends."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..core import Vector
 
 
 class Sample(NamedTuple):
-    """What a decoder makes of one measurement of the device.
+    """One measurement of the device, decoded.
 
     Attributes
     ----------
@@ -17,7 +17,7 @@ class Sample(NamedTuple):
         Nanoseconds of the host's wall clock (``time.time_ns``) when the bytes that completed the
         sample were read.  Samples that came in one chunk share it.
     specific_force : (3,) m/s^2
-        What the accelerometer reads, so +g along the axis that points up when at rest.
+        Reading of the accelerometer: +g along the axis that points up when at rest.
     angular_rate : (3,) rad/s
     ticks : int or None
         Raw device time as sent, still wrapping; None when the device sends no time.

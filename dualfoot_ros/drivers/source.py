@@ -1,4 +1,4 @@
-"""A source: transport, thread, decoder and checks, put together from one URI."""
+"""Source of samples: transport, thread, decoder and checks, put together from one URI."""
 
 from __future__ import annotations
 
@@ -8,32 +8,34 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Self
 
-from .checks import Checks, SensorCheck
-from .conditioning import Conditioner, Conditioning
-from .protocols.dot import DotOptions
+from ..core import Refusal
+from .checks import CheckConfig, SensorCheck
+from .conditioning import Conditioner, ConditioningConfig
+from .protocols.dot import DotConfig
 from .protocols.registry import make_decoder
 from .reader import Reader, State
 from .sample import Sample
 from .transports import address
-from .transports.ble import BleOptions, BleTransport
-from .transports.capture_file import FileOptions, FileTransport
+from .transports.ble import BleConfig, BleTransport
+from .transports.capture_file import FileConfig, FileTransport
 from .transports.pacing import Pacer
 from .transports.senders import Senders
-from .transports.serial_port import SerialOptions, SerialTransport
-from .transports.tcp import TcpOptions, TcpTransport
+from .transports.serial_port import SerialConfig, SerialTransport
+from .transports.tcp import TcpConfig, TcpTransport
 from .transports.transport import Transport
-from .transports.udp import UdpOptions, UdpTransport
+from .transports.udp import UdpConfig, UdpTransport
 from .uri import SourceUri, parse_uri
 
-MISSING = ("lost", "not_finite", "bad_checksum", "malformed")  # leave a hole between samples
+LEAVES_A_HOLE = (Refusal.LOST, Refusal.NOT_FINITE, Refusal.BAD_CHECKSUM, Refusal.MALFORMED)
 
 
 class Source:
     """Samples of one device, handed to ``on_samples`` from a thread of the source's own.
 
-    ``with Source(uri, on_samples):`` starts it and stops it.  ``on_state`` is told when the link
-    comes and goes, with a reason in words.  ``before_first`` is called, with the event that says
-    stop, before the first samples are handed on: a file may wait there for its listeners.
+    ``with Source(uri, on_samples):`` starts it and stops it.  ``on_state`` is called when the
+    link comes and goes, with a reason in words.  ``before_first`` is called before the first
+    samples are handed on, with an event that is set when the source is stopped: a file may wait
+    there for its listeners.
     """
 
     def __init__(
@@ -42,8 +44,8 @@ class Source:
         on_samples: Callable[[list[Sample]], None],
         *,
         on_state: Callable[[State, str], None] | None = None,
-        conditioning: Conditioning | None = None,
-        checks: Checks | None = None,
+        conditioning: ConditioningConfig | None = None,
+        checks: CheckConfig | None = None,
         clock: Callable[[], int] = time.time_ns,
         before_first: Callable[[threading.Event], None] | None = None,
     ) -> None:
@@ -67,7 +69,7 @@ class Source:
         self._on_samples = on_samples
         self._on_state = on_state or (lambda state, reason: None)
         self._before_first = before_first
-        self._pacer = _pacer(parsed, self.reader.stopping, clock)
+        self._pacer = _make_pacer(self.transport.speed, self.reader.stopping, clock)
 
     def start(self) -> None:
         """Start reading."""
@@ -91,7 +93,7 @@ class Source:
 
     @property
     def state(self) -> State:
-        """Where the link stands."""
+        """State of the link."""
         return self.reader.state
 
     @property
@@ -106,22 +108,22 @@ class Source:
         self._on_state(state, reason)
 
     def _take(self, data: bytes, arrival_ns: int) -> None:
-        missing = self._missing()
+        missing = self._count_missing()
         decoded = self.decoder.feed(data, arrival_ns)
-        whole = self._missing() == missing
-        if decoded and isinstance(self.transport, UdpTransport):
-            self.senders.see(self.transport.sender, len(decoded))
+        whole = self._count_missing() == missing
+        if decoded and self.transport.sender:
+            self.senders.count(self.transport.sender, len(decoded))
         samples = [s for s in map(self._conditioner.apply, decoded) if self._accept(s, whole)]
         if not whole:
             self.check.interrupt()
         if samples:
             self._deliver(samples)
 
-    def _missing(self) -> int:
-        return sum(self.decoder.counters[name] for name in MISSING)
+    def _count_missing(self) -> int:
+        return sum(self.decoder.counters[reason] for reason in LEAVES_A_HOLE)
 
     def _accept(self, sample: Sample, whole: bool) -> bool:
-        """Check a sample of a piece that is ``whole``, or has holes nobody knows where."""
+        """Check a sample of a piece that is ``whole``, or has holes at unknown places."""
         if not whole:
             self.check.interrupt()
         return self.check.accept(sample)
@@ -147,21 +149,19 @@ def make_transport(uri: SourceUri) -> Transport:
         When the address is malformed, the file is absent or bleak is missing.
     """
     match uri.transport:
-        case SerialOptions():
+        case SerialConfig():
             return SerialTransport(uri.location, uri.transport)
-        case UdpOptions():
+        case UdpConfig():
             return UdpTransport(address.parse(uri.location), uri.transport)
-        case TcpOptions():
+        case TcpConfig():
             return TcpTransport(address.parse(uri.location), uri.transport)
-        case BleOptions():
-            dot = uri.decoder if isinstance(uri.decoder, DotOptions) else None
+        case BleConfig():
+            dot = uri.decoder if isinstance(uri.decoder, DotConfig) else None
             return BleTransport(uri.location, uri.transport, dot)
-        case FileOptions():
+        case FileConfig():
             return FileTransport(uri.location, uri.transport)
     raise AssertionError(uri)
 
 
-def _pacer(uri: SourceUri, stopping: threading.Event, clock: Callable[[], int]) -> Pacer | None:
-    if isinstance(uri.transport, FileOptions) and uri.transport.speed > 0.0:
-        return Pacer(uri.transport.speed, stopping, clock)
-    return None
+def _make_pacer(speed: float, stopping: threading.Event, clock: Callable[[], int]) -> Pacer | None:
+    return Pacer(speed, stopping, clock) if speed > 0.0 else None

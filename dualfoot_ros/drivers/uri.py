@@ -1,4 +1,4 @@
-"""A source as one line: ``serial:///dev/ttyUSB0?baud=921600&format=mcu``."""
+"""URI of a source, parsed: ``serial:///dev/ttyUSB0?baud=921600&format=mcu``."""
 
 from __future__ import annotations
 
@@ -9,41 +9,41 @@ from urllib.parse import parse_qsl, unquote, urlsplit
 
 from ..core import ConfigError, Parameters, SourceError
 from .protocols.registry import FORMATS, find_format
-from .reader import Backoff
-from .transports.ble import BleOptions
-from .transports.capture_file import FileOptions
-from .transports.serial_port import SerialOptions
-from .transports.tcp import TcpOptions
-from .transports.udp import UdpOptions
+from .reader import BackoffConfig
+from .transports.ble import BleConfig
+from .transports.capture_file import FileConfig
+from .transports.serial_port import SerialConfig
+from .transports.tcp import TcpConfig
+from .transports.udp import UdpConfig
 
 
 class Scheme(NamedTuple):
-    """A kind of source."""
+    """A kind of source: its options, and an example."""
 
     options: type[Parameters]
     example: str
 
 
 SCHEMES: dict[str, Scheme] = {
-    "serial": Scheme(SerialOptions, "serial:///dev/ttyUSB0?baud=921600&format=mcu"),
-    "udp": Scheme(UdpOptions, "udp://0.0.0.0:8000?format=ximu3&peers=192.168.1.5"),
-    "tcp": Scheme(TcpOptions, "tcp://192.168.1.5:7000?format=ximu3"),
-    "ble": Scheme(BleOptions, "ble://D4:22:CD:00:12:34?payload=rate"),
-    "file": Scheme(FileOptions, "file://walk.csv"),
+    "serial": Scheme(SerialConfig, "serial:///dev/ttyUSB0?baud=921600&format=mcu"),
+    "udp": Scheme(UdpConfig, "udp://0.0.0.0:8000?format=ximu3&peers=192.168.1.5"),
+    "tcp": Scheme(TcpConfig, "tcp://192.168.1.5:7000?format=ximu3"),
+    "ble": Scheme(BleConfig, "ble://D4:22:CD:00:12:34?payload=rate"),
+    "file": Scheme(FileConfig, "file://walk.csv"),
 }
 DEFAULT_FORMATS = {"ble": "dot", "file": "dot_csv"}
 
 
 @dataclass(frozen=True)
 class SourceUri:
-    """A source, taken apart and checked."""
+    """Parts of a URI, checked."""
 
     scheme: str
     location: str
     format: str
     transport: Parameters
     decoder: Parameters
-    backoff: Backoff
+    backoff: BackoffConfig
 
 
 def parse_uri(uri: str) -> SourceUri:
@@ -70,10 +70,10 @@ def parse_uri(uri: str) -> SourceUri:
         raise SourceError(
             f"source '{uri}' names nothing; allowed is as in {SCHEMES[parts.scheme].example}"
         )
-    return _with_options(uri, parts.scheme, location, _query(uri, parts.query))
+    return _parse_options(uri, parts.scheme, location, _parse_query(uri, parts.query))
 
 
-def _query(uri: str, query: str) -> dict[str, str]:
+def _parse_query(uri: str, query: str) -> dict[str, str]:
     pairs = parse_qsl(query, keep_blank_values=True)
     twice = {name for name, _ in pairs if sum(name == other for other, _ in pairs) > 1}
     if twice:
@@ -81,9 +81,9 @@ def _query(uri: str, query: str) -> dict[str, str]:
     return dict(pairs)
 
 
-def _with_options(uri: str, scheme: str, location: str, query: dict[str, str]) -> SourceUri:
-    chosen = query.pop("format", "") or _default_format(uri, scheme, location)
-    groups = SCHEMES[scheme].options, find_format(chosen).options, Backoff
+def _parse_options(uri: str, scheme: str, location: str, query: dict[str, str]) -> SourceUri:
+    chosen = query.pop("format", "") or _choose_format(uri, scheme, location)
+    groups = SCHEMES[scheme].options, find_format(chosen).options, BackoffConfig
     known = {spec.name for group in groups for spec in group.specs()}
     unknown = sorted(set(query) - known)
     if unknown:
@@ -95,12 +95,12 @@ def _with_options(uri: str, scheme: str, location: str, query: dict[str, str]) -
         transport, decoder, backoff = (from_text(group, query) for group in groups)
     except ConfigError as error:
         raise SourceError(f"source '{uri}': {error}") from None
-    assert isinstance(backoff, Backoff)
+    assert isinstance(backoff, BackoffConfig)
     _check_fit(uri, scheme, chosen)
     return SourceUri(scheme, location, chosen, transport, decoder, backoff)
 
 
-def _default_format(uri: str, scheme: str, location: str) -> str:
+def _choose_format(uri: str, scheme: str, location: str) -> str:
     plain_file = scheme == "file" and not location.lower().endswith(".csv")
     if scheme not in DEFAULT_FORMATS or plain_file:
         raise SourceError(
@@ -126,22 +126,22 @@ def from_text(group: type[Parameters], query: dict[str, str]) -> Parameters:
     ConfigError
         When a text is not of the parameter's type or out of its range.
     """
-    return group.from_mapping(dict(_values(group, query)))
+    return group.from_mapping(dict(_read_values(group, query)))
 
 
-def _values(group: type[Parameters], query: dict[str, str]) -> Iterator[tuple[str, object]]:
+def _read_values(group: type[Parameters], query: dict[str, str]) -> Iterator[tuple[str, object]]:
     for spec in group.specs():
         if spec.name in query:
-            yield spec.name, _value(spec.default, query[spec.name])
+            yield spec.name, _read_value(spec.type, query[spec.name])
 
 
-def _value(default: object, text: str) -> object:
-    """Read a text as the type of ``default``; as it is where that fails, to be refused by name."""
-    if isinstance(default, bool):
+def _read_value(kind: type, text: str) -> object:
+    """Read a text as ``kind``; as it is where that fails, to be refused by name."""
+    if kind is bool:
         return {"true": True, "1": True, "false": False, "0": False}.get(text.lower(), text)
-    if isinstance(default, str):
+    if kind is str:
         return text
     try:
-        return int(text) if isinstance(default, int) else float(text)
+        return int(text) if kind is int else float(text)
     except ValueError:
         return text

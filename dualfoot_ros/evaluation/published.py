@@ -41,7 +41,7 @@ def published_trajectory(
     ----------
     left, right : one row a published message, in its frame of that time; ``stance`` is replaced
     events : all events that were published, in order
-    relative_covariance : (N, 3, 3) of left minus right position, where it is known
+    relative_covariance : (N, 3, 3) of left minus right position as published, where it is known
 
     Raises
     ------
@@ -54,12 +54,19 @@ def published_trajectory(
             "estimates); equal stamps are needed, at least one"
         )
     kept = _since_reset(events)
-    feet = [_finished(track, kept, index) for index, track in enumerate((left, right))]
+    feet = {"left": left, "right": right}
     if relative_covariance is None:
         relative_covariance = np.full((len(left), 3, 3), np.nan)
+    for event in kept:
+        if event.kind is EventKind.HEADING:
+            relative_covariance = _apply_heading(event, feet, relative_covariance)
+    tracks = [
+        replace(feet[foot], stance=clean_stance(left.stamp_ns, kept, index))
+        for index, foot in enumerate(FEET)
+    ]
     start_ns = int(left.stamp_ns[0])
     return Trajectory(
-        feet[0], feet[1], relative_covariance, kept, dict(counters or {}), start_ns, method
+        tracks[0], tracks[1], relative_covariance, kept, dict(counters or {}), start_ns, method
     )
 
 
@@ -72,13 +79,25 @@ def _since_reset(events: Iterable[Event]) -> tuple[Event, ...]:
     return tuple(kept)
 
 
-def _finished(track: FootTrajectory, events: tuple[Event, ...], foot: int) -> FootTrajectory:
-    for event in events:
-        if event.kind is EventKind.HEADING and event.foot == FEET[foot]:
-            before = track.stamp_ns < event.detected_ns
-            turned = cut(track, before).turned(event.turn)
-            track = _joined(turned, cut(track, ~before))
-    return replace(track, stance=clean_stance(track.stamp_ns, events, foot))
+def _apply_heading(
+    event: Event, feet: dict[str, FootTrajectory], relative: FloatArray
+) -> FloatArray:
+    """Turn the track of a foot as a HEADING event says; return the covariance of left minus right.
+
+    Until both headings are known the feet are uncorrelated, so that the covariance (N, 3, 3)
+    changes as the foot's own does; when both feet turn together (``joint``), it turns as a whole,
+    with the left one.
+    """
+    track, turn = feet[event.foot], event.turn
+    before = track.stamp_ns < event.detected_ns
+    turned = cut(track, before).turned(turn)
+    feet[event.foot] = _joined(turned, cut(track, ~before))
+    relative = relative.copy()
+    if not turn.joint:
+        relative[before] += turned.position_covariance - track.position_covariance[before]
+    elif event.foot == FEET[0]:
+        relative[before] = turn.covariances(relative[before])
+    return relative
 
 
 def _joined(first: FootTrajectory, then: FootTrajectory) -> FootTrajectory:

@@ -16,7 +16,7 @@ from rclpy.task import Future
 from sensor_msgs.msg import FluidPressure, Imu, MagneticField
 
 from ..core import FEET, DualFootError
-from ..settings import BringupOptions, node_specs
+from ..settings import BringupConfig, node_specs
 from .fusion import FusionNode
 from .imu_adapter import ImuAdapterNode
 from .inputs.field_topics import TOPICS as MAGNETIC
@@ -27,7 +27,7 @@ from .ros.declared_parameters import declare, group
 from .ros.program import Graph, Program, destroy, run_nodes
 from .time_sync import TimeSyncNode
 
-QUIET_S = 0.5  # without a result after the end of what was played: that was the last
+QUIET_S = 0.5  # without a result after the end of the playback: the last one has come
 Sensors = ReplayNode | ImuAdapterNode
 PROGRAM = Program(
     "bringup",
@@ -39,17 +39,17 @@ PROGRAM = Program(
 
 
 class BringupNode(Node):
-    """Holds the parameters that say which nodes there are."""
+    """Node that holds the parameters of bringup."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__("bringup", **options)
-        self.settings = group(BringupOptions, declare(self, node_specs("bringup")))
+        self.settings = group(BringupConfig, declare(self, node_specs("bringup")))
 
 
 def build(**options: Any) -> Graph:
-    """Make the nodes; the graph is done a moment after its bag, or the files of both feet, are.
+    """Make the nodes; the graph ends shortly after its bag or the files of both feet.
 
-    It fails when a source has failed for good; a device that is not there yet is none.
+    It fails when a source has failed for good, which a device that is not there yet has not.
 
     Raises
     ------
@@ -68,37 +68,39 @@ def build(**options: Any) -> Graph:
 
 
 def _add_nodes(
-    nodes: list[Node], settings: BringupOptions, options: dict[str, Any]
+    nodes: list[Node], settings: BringupConfig, options: dict[str, Any]
 ) -> Future | None:
     external = Parameter("sync", Parameter.Type.STRING, "external")
-    fusion = FusionNode(**_with(options, external))
+    fusion = FusionNode(**_add_parameters(options, external))
     nodes.append(fusion)
     nodes.append(TimeSyncNode(**options))
     if settings.record:
-        nodes.append(_recorder(Path(settings.record).expanduser(), fusion, options))
+        nodes.append(_make_recorder(Path(settings.record).expanduser(), fusion, options))
     sensors: list[Sensors] = []
-    for sensor in _sensors(settings, nodes[0].get_namespace().rstrip("/"), options):
+    for sensor in _make_sensors(settings, nodes[0].get_namespace().rstrip("/"), options):
         sensors.append(sensor)
         nodes.append(sensor)
     return _when_over(sensors, fusion) if sensors else None
 
 
-def _sensors(settings: BringupOptions, space: str, options: dict[str, Any]) -> Iterator[Sensors]:
-    """Yield what brings samples: one at a time, so that those before a bad one are destroyed."""
+def _make_sensors(
+    settings: BringupConfig, space: str, options: dict[str, Any]
+) -> Iterator[Sensors]:
+    """Yield the sources of samples, one at a time: those before a bad one must be destroyed."""
     if settings.bag:
-        yield ReplayNode(**_with(options, Parameter("bag", value=settings.bag)))
+        yield ReplayNode(**_add_parameters(options, Parameter("bag", value=settings.bag)))
     elif settings.adapters:
         for foot in FEET:
-            yield _adapter(f"{space}/{foot}", options)
+            yield _make_adapter(f"{space}/{foot}", options)
 
 
-def _adapter(namespace: str, options: dict[str, Any]) -> ImuAdapterNode:
+def _make_adapter(namespace: str, options: dict[str, Any]) -> ImuAdapterNode:
     """Make an adapter in its namespace, even where __ns:= is given for the whole process.
 
     Raises
     ------
     DualFootError
-        For what the adapter refuses; names the node.
+        From the adapter; names the node.
     """
     arguments = [*(options.get("cli_args") or ["--ros-args"]), "-r", f"__ns:={namespace}"]
     try:
@@ -107,12 +109,12 @@ def _adapter(namespace: str, options: dict[str, Any]) -> ImuAdapterNode:
         raise DualFootError(f"{namespace}/imu_adapter: {error}") from None
 
 
-def _with(options: dict[str, Any], *parameters: Parameter) -> dict[str, Any]:
+def _add_parameters(options: dict[str, Any], *parameters: Parameter) -> dict[str, Any]:
     given = options.get("parameter_overrides", [])
     return {**options, "parameter_overrides": [*given, *parameters]}
 
 
-def _recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> Node:
+def _make_recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> Node:
     from .playback.recorder import RecorderNode
 
     topics: dict[str, Any] = {}
@@ -129,7 +131,7 @@ def _recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> Node:
 
 
 def _when_over(sensors: Sequence[Sensors], fusion: FusionNode) -> Future:
-    """Return a future that is done when all is played and its last results have come.
+    """Return a future that is done when all is played and the last results have come.
 
     It fails with the first sensor that does.
     """
@@ -138,7 +140,7 @@ def _when_over(sensors: Sequence[Sensors], fusion: FusionNode) -> Future:
 
     def look() -> None:
         nonlocal before
-        over, failed = _state(sensors)
+        over, failed = _check_ends(sensors)
         now = (over, fusion.outputs.published)
         if failed is not None:
             done.set_exception(failed)
@@ -150,8 +152,8 @@ def _when_over(sensors: Sequence[Sensors], fusion: FusionNode) -> Future:
     return done
 
 
-def _state(sensors: Sequence[Sensors]) -> tuple[bool, DualFootError | None]:
-    """Return whether all sensors are over, and why one has failed."""
+def _check_ends(sensors: Sequence[Sensors]) -> tuple[bool, DualFootError | None]:
+    """Return whether all sensors are over, and the error of one that has failed."""
     ended = [sensor for sensor in sensors if sensor.done.done()]
     for sensor in ended:
         if (reason := sensor.done.exception()) is not None:

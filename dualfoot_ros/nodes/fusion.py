@@ -10,27 +10,23 @@ from rclpy.node import Node
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
-from ..core import FEET, DualFootTracker, ImuPair, TrackerConfig, all_specs
-from ..settings import Frames, FusionOptions, Reports, node_specs
-from ..settings import Input as InputOptions
-from ..settings import Path as PathOptions
-from ..timing import Aligner, ClockModel, Stamping, Sync
-from .inputs.calibrations import of_feet
-from .inputs.field_topics import FieldInputs
+from ..core import FEET, DualFootTracker, FloatArray, ImuPair, TrackerConfig, all_specs
+from ..settings import FrameConfig, FusionConfig, InputConfig, PathConfig, node_specs
+from ..timing import Stamping
+from .inputs.calibrations import load_for_feet
+from .inputs.field_topics import FieldInput, FieldInputs
+from .inputs.foot_streams import FootStreams
 from .inputs.pressure_topics import PressureInputs
-from .inputs.stamp_gap import Apart
-from .inputs.stamper import Stamper
-from .inputs.unit_check import UnitSuspicion
-from .results.fusion_report import Health
+from .inputs.unit_check import UnitCheck
+from .results.fusion_report import FusionReport
 from .results.outputs import Outputs
 from .ros import qos
 from .ros.declared_parameters import declare, group
 from .ros.diagnostics import Reporter
 from .ros.messages import imu_values, pose_yaw, to_ns
 from .ros.program import Graph, Program, run_nodes
-from .ros.watched_input import Input, Watch, Watched
 
-NO_PAIRS = "; whoever makes the pairs, as time_sync does, says in /diagnostics why there are none"
+NO_PAIRS = "; the node that makes the pairs, as time_sync, reports in /diagnostics why it has none"
 PROGRAM = Program(
     "fusion",
     "Track both feet: left|right/imu/data_raw (or data_sync) in; left|right/odometry,\n"
@@ -46,7 +42,7 @@ PROGRAM = Program(
 
 
 class FusionNode(Node):
-    """Aligns the streams, feeds the tracker, publishes what it says."""
+    """Node that pairs the samples of both feet, feeds the tracker and publishes its estimates."""
 
     def __init__(self, **options: Any) -> None:
         """Take the options of :class:`rclpy.node.Node`.
@@ -60,46 +56,57 @@ class FusionNode(Node):
         """
         super().__init__("fusion", **options)
         values = declare(self, [*node_specs("fusion"), *all_specs()])
-        own = group(FusionOptions, values)
-        frames = group(Frames, values, "frames.")
+        own, frames = group(FusionConfig, values), group(FrameConfig, values, "frames.")
         tracker = {spec.name: values[spec.name] for spec in all_specs()}
         config = TrackerConfig.from_mapping(tracker)
         self.tracker = DualFootTracker(config, engine=own.engine)
-        self.aligner = Aligner(group(Sync, values, "aligner."))
-        self.apart = Apart(self.aligner)
-        self._stamping = _stamping(own.sync, values)
-        self.stamper = Stamper(self._stamping, group(ClockModel, values, "clock."))
-        path = group(PathOptions, values, "path.")
+        path = group(PathConfig, values, "path.")
         self.outputs = Outputs(self, frames, path, config.noise.gyro, own.publish_tf)
-        self._calibration = of_feet(own.calibration)
-        self._listen(group(InputOptions, values, "input."), own.sync)
+        self._calibration = load_for_feet(own.calibration)
+        warn = self.get_logger().warning
+        self._unit_checks = {foot: UnitCheck(warn, foot) for foot in FEET}
+        self._listen(own.sync == "external", values)
         self._obey(frames.odom)
-        self.health = Health(self, own.sync)
-        period = group(Reports, values, "reports.").period
-        self._reporter = Reporter(self, period, self.health.collect)
+        self.report = FusionReport(
+            self.tracker,
+            self.streams.aligner,
+            [self.streams, *self._unit_checks.values()],
+            self.get_clock(),
+            self.get_logger(),
+            external=own.sync == "external",
+        )
+        self._reporter = Reporter(self, values, self.report.collect)
 
-    def _listen(self, options: InputOptions, sync: str) -> None:
-        topic = "imu/data_raw" if sync == "internal" else "imu/data_sync"
-        profile = qos.sensor(options.depth)
-        hint = NO_PAIRS if sync == "external" else ""
-        self.suspicions = {
-            foot: UnitSuspicion(f"the {foot} foot", self.get_logger().warning) for foot in FEET
-        }
-        self.inputs = {
-            foot: Input(self, Imu, f"{foot}/{topic}", self._receiver(foot), profile, hint)
-            for foot in FEET
-        }
+    def _listen(self, external: bool, values: dict[str, Any]) -> None:
+        """Subscribe to the feet; time_sync has already applied the stamping to external pairs."""
+        stamping = Stamping() if external else group(Stamping, values, "stamping.")
+        aids = self._listen_for_aids(stamping, group(InputConfig, values, "input.").depth)
+        self.streams = FootStreams(
+            self,
+            "imu/data_sync" if external else "imu/data_raw",
+            values,
+            self._read_sample,
+            self._track,
+            stamping=stamping,
+            also=aids,
+            hint=NO_PAIRS if external else "",
+        )
+
+    def _listen_for_aids(
+        self, stamping: Stamping, depth: int
+    ) -> list[PressureInputs | FieldInput]:
+        """Subscribe to what the aids need; return the inputs that are to be watched."""
+        aids, watched = self.tracker.config.aids, list[PressureInputs | FieldInput]()
         self.pressure: PressureInputs | None = None
-        if self.tracker.config.aids.barometer:
-            self.pressure = PressureInputs(self, self.tracker.add_pressure, options.depth)
+        if aids.barometer:
+            self.pressure = PressureInputs(self, self.tracker.add_pressure, depth)
+            watched.append(self.pressure)
         self.fields: FieldInputs | None = None
-        if self.tracker.config.aids.magnetic_heading:
+        if aids.magnetic_heading:
             take = self.tracker.add_magnetic_field
-            self.fields = FieldInputs(self, take, self._stamping, options.depth)
-        watched: list[Watched] = [*self.inputs.values()]
-        watched += [self.pressure] if self.pressure is not None else []
-        watched += self.fields.feet.values() if self.fields is not None else []
-        self.watch = Watch(self, watched, options)
+            self.fields = FieldInputs(self, take, stamping, depth)
+            watched.extend(self.fields.feet.values())
+        return watched
 
     def _obey(self, frame_id: str) -> None:
         self._frame_id = frame_id
@@ -108,38 +115,28 @@ class FusionNode(Node):
             PoseWithCovarianceStamped, "initialpose", self._set_pose, qos.result(1)
         )
 
-    def _receiver(self, foot: str) -> Any:
-        calibration = self._calibration.get(foot)
-
-        def receive(message: Imu) -> None:
-            arrival_ns, header_ns = self.inputs[foot].arrival_ns, to_ns(message.header.stamp)
-            stamp_ns = self.stamper.stamp(foot, header_ns, arrival_ns)
-            if stamp_ns is None:
-                return
-            if self.fields is not None:
-                self.fields.stamped(foot, header_ns, stamp_ns)
-            values = imu_values(message)
-            if calibration is not None:
-                values = calibration.values(values)
-            self.suspicions[foot].look(values.tolist())
-            self.apart.see(foot, stamp_ns)
-            for pair in self.aligner.push(foot, stamp_ns, values):
-                self._track(pair)
-
-        return receive
+    def _read_sample(self, foot: str, message: Imu, stamp_ns: int) -> FloatArray:
+        """Return specific force and angular rate (6,) of a message, calibrated."""
+        if self.fields is not None:
+            self.fields.stamped(foot, to_ns(message.header.stamp), stamp_ns)
+        values = imu_values(message)
+        if foot in self._calibration:
+            values = self._calibration[foot].values(values)
+        self._unit_checks[foot].add(values.tolist())
+        return values
 
     def _track(self, pair: ImuPair) -> None:
         update = self.tracker.add(pair)
-        self.health.add(update)
+        self.report.add(update)
         self.outputs.publish(update)
 
     def _reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self.tracker.reset()
-        self.aligner.reset()
+        self.streams.reset()
         self.outputs.clear()
         self.get_logger().info("reset: stand still until the alignment is done")
         response.success = True
-        response.message = "aligning anew: stand still"
+        response.message = "aligning again: stand still"
         return response
 
     def _set_pose(self, message: PoseWithCovarianceStamped) -> None:
@@ -150,18 +147,13 @@ class FusionNode(Node):
                 f"allowed is '{self._frame_id}'"
             )
             return
-        found = pose_yaw(message.pose.pose)
-        if found is None:
+        pose = pose_yaw(message.pose.pose)
+        if pose is None:
             log.warning("initialpose is not finite and was ignored")
             return
-        position, yaw = found
+        position, yaw = pose
         self.tracker.set_pose(position.tolist(), yaw)
         log.info(f"pose set to {position.round(3).tolist()} m, heading {yaw:.3f} rad")
-
-
-def _stamping(sync: str, values: dict[str, Any]) -> Stamping:
-    """Return the policies for raw streams; time_sync has already applied them to others."""
-    return group(Stamping, values, "stamping.") if sync == "internal" else Stamping()
 
 
 def main() -> int:

@@ -1,4 +1,4 @@
-"""Node ``replay``: a recorded bag becomes topics again, with /clock."""
+"""Node ``replay``: a recorded bag in; its topics and /clock out."""
 
 from __future__ import annotations
 
@@ -14,17 +14,18 @@ from sensor_msgs.msg import Imu
 
 from ..core import FEET, ImuSeries
 from ..recording import Recording, RecordingError, read_bag
-from ..settings import Play, ReplayOptions, Reports, node_specs
+from ..settings import PlayConfig, ReplayConfig, node_specs
 from .inputs.field_topics import TOPICS as MAGNETIC
 from .inputs.field_topics import FieldOutput
 from .inputs.pressure_topics import TOPICS, PressureOutputs
 from .playback.player import Player, Sample, Series, in_order
 from .ros import qos
 from .ros.declared_parameters import declare, group
-from .ros.diagnostics import Reporter, Status
+from .ros.diagnostics import Reporter
 from .ros.messages import new_imu, set_imu_values, set_time
 from .ros.program import Graph, Program, run_nodes
-from .ros.watched_input import watched_publisher
+from .ros.status import Status
+from .ros.watched_publisher import watched_publisher
 
 DEPTH = 2000
 CLOCK_STEP_NS = 5_000_000
@@ -41,10 +42,10 @@ PROGRAM = Program(
 
 
 class ReplayNode(Node):
-    """Publishes a recording; ``done`` is completed at its end.
+    """Node that publishes a recording; ``done`` is completed at its end.
 
     With a ``gate`` samples go out one by one as it opens, so that within one process nothing is
-    lost at any speed; whoever holds the gate starts ``player`` when it is ready.
+    lost at any speed; the owner of the gate starts ``player`` when it is ready.
     """
 
     def __init__(self, *, gate: Callable[[], bool] | None = None, **options: Any) -> None:
@@ -59,14 +60,14 @@ class ReplayNode(Node):
         """
         super().__init__("replay", **options)
         values = declare(self, node_specs("replay"))
-        own = group(ReplayOptions, values)
+        own = group(ReplayConfig, values)
         recording = _read(own.bag)
-        self.series = _series(recording, own.bag)
+        self.series = _select_series(recording, own.bag)
         pressure = dict(recording.pressure)
-        fields = {foot: each.field for foot, each in self.series.items()}
+        fields = {foot: series.field for foot, series in self.series.items()}
         samples: dict[str, Series] = {**self.series}
-        samples |= {MAGNETIC[foot]: each for foot, each in fields.items() if each is not None}
-        samples |= {TOPICS[worn]: each for worn, each in pressure.items()}
+        samples |= {MAGNETIC[foot]: field for foot, field in fields.items() if field is not None}
+        samples |= {TOPICS[worn]: series for worn, series in pressure.items()}
         self.pressure = PressureOutputs(self, pressure, DEPTH)
         self.fields = {
             topic: FieldOutput(self, topic, recording.frame(foot), DEPTH)
@@ -83,21 +84,21 @@ class ReplayNode(Node):
             self.create_publisher(Clock, "/clock", qos.clock()) if own.clock else None
         )
         self._clock_ns = 0
-        self.total = sum(len(each) for each in samples.values())
+        self.total = sum(map(len, samples.values()))
         self.player = Player(
             lambda: in_order(samples),
             self._publish,
-            group(Play, values, "play."),
+            group(PlayConfig, values, "play."),
             alive=self.context.ok,
-            ready=self._subscribed,
+            ready=self._has_listeners,
             gate=gate,
             finished=self._finish,
         )
-        self._reporter = Reporter(self, group(Reports, values, "reports.").period, self._collect)
+        self._reporter = Reporter(self, values, self._collect)
         if gate is None:
             self.player.start()
 
-    def _subscribed(self) -> bool:
+    def _has_listeners(self) -> bool:
         return all(publisher.get_subscription_count() for publisher in self._out.values())
 
     def _publish(self, sample: Sample) -> None:
@@ -144,9 +145,9 @@ def _read(bag: str) -> Recording:
     return read_bag(Path(bag).expanduser())
 
 
-def _series(recording: Recording, bag: str) -> dict[str, ImuSeries]:
-    found = {foot: recording.imu(foot) for foot in FEET}
-    series = {foot: each for foot, each in found.items() if each is not None and len(each)}
+def _select_series(recording: Recording, bag: str) -> dict[str, ImuSeries]:
+    feet = {foot: recording.imu(foot) for foot in FEET}
+    series = {foot: imu for foot, imu in feet.items() if imu is not None and len(imu)}
     if not series:
         raise RecordingError(
             f"bag '{bag}' has no samples on /left/imu/data_raw or /right/imu/data_raw"

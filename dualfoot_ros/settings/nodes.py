@@ -1,4 +1,4 @@
-"""Parameters of the ROS nodes beside those of the tracker: declared here, without any ROS."""
+"""Parameters of the ROS nodes, without those of the tracker; declared here without any ROS."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ..core import Mounting, Parameters, ParameterSpec, parameter
-from ..drivers import Checks
+from ..drivers import CheckConfig
 from ..timing import POLICIES, ClockModel, Stamping, Sync
 
 SYNC_CHOICES = ("internal", "external")
 
 
 @dataclass(frozen=True)
-class Input(Parameters):
-    """How a node listens to its sensors."""
+class InputConfig(Parameters):
+    """Inputs of a node: queues, and when a silent one is an error."""
 
     depth: int = parameter(
         1000, "queue of each input, samples (2 s at 500 Hz)", minimum=1, maximum=100000
@@ -37,8 +37,8 @@ class Input(Parameters):
 
 
 @dataclass(frozen=True)
-class Frames(Parameters):
-    """Frame ids of what fusion publishes."""
+class FrameConfig(Parameters):
+    """Frame ids of the messages that fusion publishes."""
 
     odom: str = parameter("odom", "frame of the trajectories; map if steps disturb its users")
     left: str = parameter("left_foot", "frame of the left foot's sensor")
@@ -47,8 +47,8 @@ class Frames(Parameters):
 
 
 @dataclass(frozen=True)
-class Path(Parameters):
-    """The paths of the feet: one pose a stance and the newest."""
+class PathConfig(Parameters):
+    """Paths of the feet: one pose a stance and the newest."""
 
     length: int = parameter(1000, "poses kept; the oldest are dropped", minimum=2, maximum=100000)
     period: float = parameter(
@@ -57,7 +57,7 @@ class Path(Parameters):
 
 
 @dataclass(frozen=True)
-class FusionOptions(Parameters):
+class FusionConfig(Parameters):
     """Parameters of the node ``fusion`` itself."""
 
     sync: str = parameter(
@@ -79,14 +79,14 @@ class FusionOptions(Parameters):
 
 
 @dataclass(frozen=True)
-class Reports(Parameters):
-    """How often a node reports on itself."""
+class ReportConfig(Parameters):
+    """Reports of a node on /diagnostics."""
 
     period: float = parameter(1.0, "period of /diagnostics", unit="s", minimum=0.1, maximum=60.0)
 
 
 @dataclass(frozen=True)
-class AdapterOptions(Parameters):
+class AdapterConfig(Parameters):
     """Parameters of the node ``imu_adapter`` itself."""
 
     source: str = parameter(
@@ -117,16 +117,16 @@ class AdapterOptions(Parameters):
 
 
 @dataclass(frozen=True)
-class Units(Parameters):
-    """Units of the source; what is published is SI."""
+class UnitConfig(Parameters):
+    """Units of the source; the published messages are SI."""
 
     specific_force: str = parameter("m/s^2", "of the source", choices=("m/s^2", "g"))
     angular_rate: str = parameter("rad/s", "of the source", choices=("rad/s", "deg/s"))
 
 
 @dataclass(frozen=True)
-class Covariance(Parameters):
-    """Noise to publish with every sample, where it is known."""
+class CovarianceConfig(Parameters):
+    """Noise that is published with every sample, where it is known."""
 
     specific_force_std: float = parameter(
         0.0, "0: as received", unit="m/s^2", minimum=0.0, maximum=10.0
@@ -137,8 +137,8 @@ class Covariance(Parameters):
 
 
 @dataclass(frozen=True)
-class Play(Parameters):
-    """How a recording is played."""
+class PlayConfig(Parameters):
+    """Playback of a recording."""
 
     rate: float = parameter(1.0, "speed, as a multiple of real time", minimum=0.01, maximum=1000.0)
     loop: bool = parameter(False, "start again at the end")
@@ -155,7 +155,7 @@ class Play(Parameters):
 
 
 @dataclass(frozen=True)
-class ReplayOptions(Parameters):
+class ReplayConfig(Parameters):
     """Parameters of the node ``replay`` itself."""
 
     bag: str = parameter("", "the bag to play: a folder of rosbag2, or a single mcap file")
@@ -168,8 +168,8 @@ class ReplayOptions(Parameters):
 
 
 @dataclass(frozen=True)
-class BringupOptions(Parameters):
-    """Parameters of ``bringup``: which nodes it starts in its process."""
+class BringupConfig(Parameters):
+    """Parameters of ``bringup``: the nodes that it starts in its process."""
 
     adapters: bool = parameter(True, "start left/imu_adapter and right/imu_adapter")
     bag: str = parameter("", "play this bag with replay, in place of the adapters")
@@ -178,30 +178,30 @@ class BringupOptions(Parameters):
 
 GROUPS: dict[str, type[Parameters]] = {
     "aligner": Sync,
-    "input": Input,
-    "frames": Frames,
-    "path": Path,
-    "reports": Reports,
+    "input": InputConfig,
+    "frames": FrameConfig,
+    "path": PathConfig,
+    "reports": ReportConfig,
     "mounting": Mounting,
-    "units": Units,
-    "covariance": Covariance,
-    "checks": Checks,
+    "units": UnitConfig,
+    "covariance": CovarianceConfig,
+    "checks": CheckConfig,
     "stamping": Stamping,
     "clock": ClockModel,
-    "play": Play,
+    "play": PlayConfig,
 }
 NODES: dict[str, tuple[type[Parameters], tuple[str, ...]]] = {
     "fusion": (
-        FusionOptions,
+        FusionConfig,
         ("aligner", "stamping", "clock", "input", "frames", "path", "reports"),
     ),
     "imu_adapter": (
-        AdapterOptions,
+        AdapterConfig,
         ("mounting", "units", "covariance", "checks", "clock", "play", "input", "reports"),
     ),
     "time_sync": (Parameters, ("aligner", "stamping", "clock", "input", "reports")),
-    "replay": (ReplayOptions, ("play", "reports")),
-    "bringup": (BringupOptions, ()),
+    "replay": (ReplayConfig, ("play", "reports")),
+    "bringup": (BringupConfig, ()),
 }
 
 

@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+import json
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.core import DualFootTracker, EventKind, ImuPair, TrackerConfig
+from dualfoot_ros.core import (
+    DualFootTracker,
+    EventKind,
+    ImuPair,
+    Refusal,
+    TrackerConfig,
+    refusal_of,
+)
 from dualfoot_ros.core.results.update import Update
 
 from .harness import quick_engine, standing_samples, walk
@@ -178,3 +188,28 @@ def test_a_day_without_data_leaves_finite_numbers_and_a_filter_that_goes_on():
         assert np.isfinite(update.row).all()
     eigenvalues = np.linalg.eigvalsh(update.left.pose_covariance())
     assert eigenvalues[0] > -1e-9 * eigenvalues[-1]
+
+
+@pytest.mark.parametrize("reason", list(Refusal))
+def test_the_counter_of_a_reason_leads_back_to_it_with_its_foot(reason):
+    assert refusal_of(str(reason)) == (reason, "")
+    for foot in ("left", "right"):
+        assert refusal_of(f"{foot}_{reason}") == (reason, foot)
+
+
+@pytest.mark.parametrize("counter", ["pairs", "samples", "left_accepted", "not_finite_left", ""])
+def test_a_counter_of_anything_else_is_no_reason(counter):
+    assert refusal_of(counter) is None
+
+
+@pytest.mark.parametrize("reason", list(Refusal))
+def test_a_reason_is_a_phrase_that_fits_into_a_sentence(reason):
+    assert reason.words == reason.words.strip() and not reason.words.endswith((".", ":"))
+    assert reason.words[0].islower() and "_" not in reason.words
+
+
+def test_reasons_count_and_travel_as_plain_text():
+    counters = {Refusal.NOT_FINITE: 3}
+    assert counters == {"not_finite": 3} and counters["not_finite"] == 3
+    assert json.loads(json.dumps(counters)) == counters
+    assert pickle.loads(pickle.dumps(Refusal.LATE)) is Refusal.LATE

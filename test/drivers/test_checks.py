@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dualfoot_ros.drivers import Checks, Sample, SensorCheck
+from dualfoot_ros.drivers import CheckConfig, Sample, SensorCheck, SensorFault
 from dualfoot_ros.drivers.checks import AXES
 
 
@@ -20,7 +20,7 @@ def walk(count, *, interval_us=5000, bits=32, start_us=0, seed=1):
 
 
 def checked(samples, **options):
-    check = SensorCheck(Checks(**options))
+    check = SensorCheck(CheckConfig(**options))
     for sample in samples:
         check.accept(sample)
     return check
@@ -40,7 +40,8 @@ def test_the_rate_does_not_care_where_the_counter_wraps(bits, start_us):
 
 def test_a_wrong_rate_is_said_with_both_figures():
     (finding,) = checked(walk(500, interval_us=16667), rate=200.0).findings
-    assert "60.0" in finding and "200" in finding
+    assert finding.kind is SensorFault.WRONG_RATE
+    assert "60.0" in finding.text and "200" in finding.text
 
 
 def test_lost_samples_do_not_change_the_rate():
@@ -57,11 +58,12 @@ def test_readings_at_the_end_of_the_range_are_counted_as_clipped():
     samples = [s._replace(specific_force=(0.0, 156.9, 0.0)) for s in walk(5)]
     check = checked([*walk(20), *samples], force_range=156.9)
     assert check.counters["clipped_force"] == 5
-    assert "accelerometer" in check.findings[0]
+    (finding,) = check.findings
+    assert finding.kind is SensorFault.CLIPPED_FORCE and "accelerometer" in str(finding)
 
 
 def test_what_no_sensor_of_that_range_reads_is_refused():
-    check = SensorCheck(Checks(force_range=160.0, rate_range=35.0))
+    check = SensorCheck(CheckConfig(force_range=160.0, rate_range=35.0))
     (good,) = walk(1)
     assert check.accept(good)
     assert not check.accept(good._replace(specific_force=(1e30, 0.0, 0.0)))
@@ -73,7 +75,7 @@ def test_a_frozen_sensor_is_recognised_and_forgotten_when_it_thaws():
     (frozen,) = walk(1)
     check = checked([*walk(100), *[frozen] * 60], stuck_after=50)
     assert check.stuck == AXES
-    assert "stuck" in check.findings[0]
+    assert [finding.kind for finding in check.findings] == [SensorFault.STUCK_SENSOR]
     check.accept(next(walk(1, seed=2)))
     assert check.stuck == ()
 
@@ -84,7 +86,8 @@ def test_one_axis_that_never_moves_is_named():
     ]
     check = checked(samples, stuck_axis_after=250)
     assert check.stuck == ("angular rate y",)
-    assert "angular rate y" in check.findings[0]
+    (finding,) = check.findings
+    assert finding.kind is SensorFault.STUCK_AXIS and "angular rate y" in finding.text
 
 
 def test_a_sensor_at_rest_with_coarse_steps_is_not_called_stuck():

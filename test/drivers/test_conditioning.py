@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dualfoot_ros.core.errors import ConfigError
-from dualfoot_ros.drivers import Conditioner, Conditioning, Sample
+from dualfoot_ros.drivers import Conditioner, ConditioningConfig, Sample
 
 angles = st.floats(-6.2, 6.2)
 numbers = st.floats(-100.0, 100.0)
@@ -22,7 +22,7 @@ def sample(force=(0.0, 0.0, 9.81), rate=(0.0, 0.0, 0.0), field=None):
 
 @given(angles, angles, angles, vectors, vectors, st.sampled_from(RIGHT_HANDED))
 def test_turning_keeps_lengths_and_the_angle_between_force_and_rate(roll, pitch, yaw, f, w, axes):
-    turned = Conditioner(Conditioning(axes=axes, roll=roll, pitch=pitch, yaw=yaw)).apply(
+    turned = Conditioner(ConditioningConfig(axes=axes, roll=roll, pitch=pitch, yaw=yaw)).apply(
         sample(f, w)
     )
     assert math.hypot(*turned.specific_force) == pytest.approx(math.hypot(*f), abs=1e-9)
@@ -35,23 +35,23 @@ def test_turning_keeps_lengths_and_the_angle_between_force_and_rate(roll, pitch,
 def test_a_sensor_pitched_forward_reads_gravity_upwards_again_when_its_mounting_is_given():
     pitch = math.radians(28.0)  # as on the instep: the toes are lower
     reads = (-9.81 * math.sin(pitch), 0.0, 9.81 * math.cos(pitch))
-    level = Conditioner(Conditioning(pitch=pitch)).apply(sample(reads))
+    level = Conditioner(ConditioningConfig(pitch=pitch)).apply(sample(reads))
     assert level.specific_force == pytest.approx((0.0, 0.0, 9.81))
 
 
 def test_axes_name_what_points_forward_left_and_up():
-    turned = Conditioner(Conditioning(axes="y,-x,z")).apply(sample((1.0, 2.0, 3.0)))
+    turned = Conditioner(ConditioningConfig(axes="y,-x,z")).apply(sample((1.0, 2.0, 3.0)))
     assert turned.specific_force == (2.0, -1.0, 3.0)
 
 
 @pytest.mark.parametrize("axes", ["y,-x,z", "+y,-x,+z", "y-xz", " y, -x, z "])
 def test_axes_may_be_written_with_or_without_commas_and_plus_signs(axes):
-    turned = Conditioner(Conditioning(axes=axes)).apply(sample((1.0, 2.0, 3.0)))
+    turned = Conditioner(ConditioningConfig(axes=axes)).apply(sample((1.0, 2.0, 3.0)))
     assert turned.specific_force == (2.0, -1.0, 3.0)
 
 
 def test_g_and_degrees_become_si_and_the_field_only_turns():
-    options = Conditioning(axes="y,-x,z", force_unit="g", rate_unit="deg/s")
+    options = ConditioningConfig(axes="y,-x,z", force_unit="g", rate_unit="deg/s")
     turned = Conditioner(options).apply(sample((0, 0, 1), (0, 0, 180), (2e-5, 0, -4e-5)))
     assert turned.specific_force == pytest.approx((0, 0, 9.80665))
     assert turned.angular_rate == pytest.approx((0, 0, math.pi))
@@ -60,7 +60,7 @@ def test_g_and_degrees_become_si_and_the_field_only_turns():
 
 def test_axes_that_cannot_be_are_refused():
     with pytest.raises(ConfigError, match="axes are 'x,-y,z': they mirror the sensor"):
-        Conditioner(Conditioning(axes="x,-y,z"))
+        Conditioner(ConditioningConfig(axes="x,-y,z"))
 
 
 def test_nothing_is_touched_when_nothing_is_asked():
@@ -69,7 +69,7 @@ def test_nothing_is_touched_when_nothing_is_asked():
 
 
 def test_time_counter_and_temperature_are_left_alone():
-    turned = Conditioner(Conditioning(yaw=1.0)).apply(sample())
+    turned = Conditioner(ConditioningConfig(yaw=1.0)).apply(sample())
     assert (turned.ticks, turned.counter, turned.temperature, turned.arrival_ns) == (
         42,
         3,
@@ -80,4 +80,4 @@ def test_time_counter_and_temperature_are_left_alone():
 
 def test_an_unknown_unit_is_refused_by_name():
     with pytest.raises(ConfigError, match="force_unit"):
-        Conditioning(force_unit="mg")
+        ConditioningConfig(force_unit="mg")

@@ -4,9 +4,9 @@ from collections import Counter
 
 import pytest
 
-from dualfoot_ros.drivers import Backoff, Reader, State
+from dualfoot_ros.drivers import BackoffConfig, Reader, State
 
-BACKOFF = Backoff(retry_first=0.1, retry_max=0.5)
+BACKOFF = BackoffConfig(retry_first=0.1, retry_max=0.5)
 
 
 class Script:

@@ -121,7 +121,9 @@ def test_a_file_that_cannot_be_read_ends_it_too_though_that_comes_out_later(with
 )
 def test_a_device_that_is_not_there_yet_is_reported_and_waited_for(with_sources, source):
     running = with_sources(source)
-    running.wait_for(f"[me.left.imu_adapter]: source '{source}' is not there and is tried again")
+    running.wait_for(
+        f"[me.left.imu_adapter]: source '{source}' is not available and is tried again"
+    )
     running.wait_for("topic '/b' has no publisher")
     running.send(signal.SIGINT)
     assert running.code() == 0

@@ -22,7 +22,7 @@ from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.ros import qos
 from dualfoot_ros.nodes.ros.messages import pose_of, to_ns
 from dualfoot_ros.recording import read_bag
-from dualfoot_ros.settings.nodes import Input as InputOptions
+from dualfoot_ros.settings.nodes import InputConfig
 from dualfoot_ros.timing import align
 
 from .samples import STANDING, STEP_NS, imu, status_values
@@ -71,7 +71,7 @@ class Walker:
     def taken(self):
         """Wait until fusion has taken everything that was sent."""
         self.bench.until(
-            lambda: sum(each.received for each in self.fusion.inputs.values()) == self.sent,
+            lambda: self.fusion.streams.received == self.sent,
             "samples",
         )
 
@@ -207,7 +207,7 @@ def test_a_path_has_a_pose_for_each_stance_and_comes_at_most_once_a_second(bench
 def test_bad_samples_never_stop_the_node_and_are_counted(bench):
     walker = Walker(bench)
     walker.stand(1.0)
-    before = walker.fusion.aligner.counters["pairs"]
+    before = walker.fusion.streams.aligner.counters["pairs"]
     start_ns = 10**12 + 10**9
     garbage = [[math.nan] * 6, [math.inf] * 6, [1e300] * 6, [-1e9] * 6, [0.0] * 6]
     for k, values in enumerate(garbage):
@@ -217,7 +217,7 @@ def test_bad_samples_never_stop_the_node_and_are_counted(bench):
     walker.send("left", start_ns + 4 * STEP_NS)
     walker.taken()
     walker.stand(4.0, start_ns + 5 * STEP_NS)
-    aligner, tracker = walker.fusion.aligner.counters, walker.fusion.tracker.counters
+    aligner, tracker = walker.fusion.streams.aligner.counters, walker.fusion.tracker.counters
     assert aligner["left_not_finite"] == 2 and aligner["right_not_finite"] == 2
     assert aligner["left_out_of_order"] == 1 and aligner["left_duplicate"] == 1
     assert tracker["out_of_range"] == 2
@@ -247,8 +247,8 @@ def test_a_bag_that_starts_again_resets_the_filter(bench):
 )
 def test_one_foot_only_is_said_in_the_diagnostics(bench, first_s, level, words):
     walker = Walker(bench, {"input.silence": 1.0, "input.first": first_s})
-    right = walker.fusion.inputs["right"]
-    bench.until(lambda: right.complaint(InputOptions(silence=1.0)), "silence of the right foot")
+    right = walker.fusion.streams.inputs["right"]
+    bench.until(lambda: right.complaint(InputConfig(silence=1.0)), "silence of the right foot")
     for k in range(50):
         walker.send("left", k * STEP_NS)
     walker.taken()

@@ -5,8 +5,8 @@ from sensor_msgs.msg import Imu
 
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.ros import qos
-from dualfoot_ros.nodes.ros.diagnostics import ERROR, WARN, Status
 from dualfoot_ros.nodes.ros.messages import imu_values, to_ns
+from dualfoot_ros.nodes.ros.status import ERROR, WARN, Status
 from dualfoot_ros.nodes.time_sync import TimeSyncNode
 from dualfoot_ros.recording import read_bag
 from dualfoot_ros.timing import align
@@ -63,13 +63,13 @@ def test_bad_samples_are_refused_and_counted(bench):
     for foot in FEET:
         for k in range(5):
             feet.raw[foot].publish(imu(k * STEP_NS))
-    bench.until(lambda: node.aligner.counters["pairs"] == 5, "first pairs")
+    bench.until(lambda: node.streams.aligner.counters["pairs"] == 5, "first pairs")
     feet.raw["left"].publish(imu(5 * STEP_NS, [np.nan] * 6))
     feet.raw["left"].publish(imu(4 * STEP_NS))
     feet.raw["right"].publish(imu(2 * STEP_NS))
     feet.raw["left"].publish(imu(6 * STEP_NS, [np.inf] * 6))
-    bench.until(lambda: sum(each.received for each in node.inputs.values()) == 14, "bad samples")
-    counters = node.aligner.counters
+    bench.until(lambda: node.streams.received == 14, "bad samples")
+    counters = node.streams.aligner.counters
     assert counters["left_not_finite"] == 2 and counters["left_duplicate"] == 1
     assert counters["right_out_of_order"] == 1 and counters["pairs"] == 5
 
@@ -79,9 +79,9 @@ def test_one_foot_alone_gives_no_pairs(bench):
     feet = Feet(bench, node)
     for k in range(200):
         feet.raw["left"].publish(imu(k * STEP_NS))
-    bench.until(lambda: node.inputs["left"].received == 200, "samples")
+    bench.until(lambda: node.streams.inputs["left"].received == 200, "samples")
     assert feet.got == {"left": [], "right": []}
-    assert node.aligner.counters["outside"] > 0
+    assert node.streams.aligner.counters["outside"] > 0
 
 
 def test_a_bag_that_starts_again_is_counted_as_a_restart(bench):
@@ -91,9 +91,9 @@ def test_a_bag_that_starts_again_is_counted_as_a_restart(bench):
         for k in range(100):
             for foot in FEET:
                 feet.raw[foot].publish(imu(10**12 + k * STEP_NS))
-    bench.until(lambda: sum(each.received for each in node.inputs.values()) == 400, "samples")
-    assert node.aligner.counters["restarts"] >= 1
-    assert node.aligner.counters["pairs"] > 150
+    bench.until(lambda: node.streams.received == 400, "samples")
+    assert node.streams.aligner.counters["restarts"] >= 1
+    assert node.streams.aligner.counters["pairs"] > 150
 
 
 def test_streams_without_a_common_clock_are_paired_by_their_arrivals(bench):
@@ -104,7 +104,7 @@ def test_streams_without_a_common_clock_are_paired_by_their_arrivals(bench):
     for k in range(50):
         feet.raw["left"].publish(imu(k * STEP_NS))
         feet.raw["right"].publish(imu(10**15 + k * STEP_NS))
-        bench.until(lambda k=k: node.inputs["right"].received > k, "a sample")
+        bench.until(lambda k=k: node.streams.inputs["right"].received > k, "a sample")
     bench.until(lambda: min(map(len, feet.got.values())) >= 20, "pairs")
     stamps = [to_ns(m.header.stamp) for m in feet.got["left"]]
     assert stamps == sorted(stamps) and start_ns <= stamps[0]
@@ -126,7 +126,7 @@ def test_a_clock_that_is_being_learnt_is_no_silence_of_its_input(bench):
 
     def look():
         status = Status()
-        node.watch.describe(status)
+        node.streams.monitor.describe(status)
         if "left/imu/data_raw" in status.message:
             found.add((status.level, status.message))
         return found
@@ -134,7 +134,7 @@ def test_a_clock_that_is_being_learnt_is_no_silence_of_its_input(bench):
     bench.until(lambda: all(p.get_subscription_count() for p in out), "discovery")
     bench.until(lambda: node.count_publishers("left/imu/data_raw"), "the adapter")
     timer = probe.create_timer(1e-9 * STEP_NS, send)
-    bench.until(lambda: look() and node.inputs["left"].received, "a first sample")
+    bench.until(lambda: look() and node.streams.inputs["left"].received, "a first sample")
     assert adapter.stamper.counters["settling"] > 50
     assert found == {(WARN, "topic '/left/imu/data_raw' has 1 publisher(s) but no sample yet")}
     found.clear()
@@ -150,4 +150,4 @@ def test_a_fixed_offset_brings_two_streams_together(bench):
     for k in range(50):
         feet.raw["left"].publish(imu(k * STEP_NS))
         feet.raw["right"].publish(imu(5 * 10**9 + k * STEP_NS))
-    bench.until(lambda: node.aligner.counters["pairs"] == 50, "pairs")
+    bench.until(lambda: node.streams.aligner.counters["pairs"] == 50, "pairs")

@@ -17,6 +17,7 @@ from ..config_groups import AidsConfig
 from ..constraints.method import Gait, Method, Request, StancePhase
 from ..joint_estimate import JointEstimate, Outcome, nothing_done
 from ..kernel.layout import position_row
+from ..refusals import Refusal
 from ..results.events import FEET, EventKind
 from ..results.payloads import PressureHeight, Reason
 from .pressure import PressureLog
@@ -51,7 +52,7 @@ class Barometer(Method):
             return ()
         worn, inside = self._measured(foot, max(began_ns, last_ns - LONGEST_NS), last_ns)
         if len(inside) < self._config.barometer_samples:
-            self._counters["stances_without_pressure"] += 1
+            self._counters[Refusal.STANCES_WITHOUT_PRESSURE] += 1
             return ()
         height = sum(inside) / len(inside)
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..refusals import Refusal
 from ..samples.series import FloatArray
 from .log import Log
 
@@ -17,12 +18,12 @@ RANGE_T = (1e-6, 1e-3)  # beyond these it is not near the earth's (25 to 65 uT),
 class FieldLog(Log[FloatArray]):
     """What one sensor has measured: the field (3,) T in the axes of the foot over time."""
 
-    def add(self, stamp_ns: int, tesla: Sequence[float] | FloatArray) -> str | None:
-        """Take a sample; return the name of why not, if it is refused."""
+    def add(self, stamp_ns: int, tesla: Sequence[float] | FloatArray) -> Refusal | None:
+        """Take a sample; return why it is refused, if it is."""
         field = np.array(tesla, dtype=np.float64)
         if not RANGE_T[0] < math.hypot(*field.tolist()) < RANGE_T[1]:
-            return "field_out_of_range"  # as is what is not finite
-        return None if self.put(stamp_ns, field) else "field_out_of_order"
+            return Refusal.FIELD_OUT_OF_RANGE  # as is what is not finite
+        return None if self.put(stamp_ns, field) else Refusal.FIELD_OUT_OF_ORDER
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ import numpy as np
 from ..config_groups import AidsConfig
 from ..constraints.method import Method
 from ..errors import ConfigError
+from ..refusals import Refusal
 from ..results.events import FEET
 from ..samples.series import FieldSeries, FloatArray
 from .barometer import WORN, Barometer
@@ -40,8 +41,8 @@ class AidInputs:
             found.append(MagneticHeading(config, self._fields, counters))
         return found
 
-    def take_pressure(self, worn: str, stamp_ns: int, pascal: float) -> str | None:
-        """Take a pressure in Pa; return the name of why not, if it is refused.
+    def take_pressure(self, worn: str, stamp_ns: int, pascal: float) -> Refusal | None:
+        """Take a pressure in Pa; return why it is refused, if it is.
 
         Raises
         ------
@@ -50,12 +51,13 @@ class AidInputs:
         """
         _check_worn("pressure", worn, WORN)
         used = self._config.barometer
-        refused = self._pressure[worn].add(stamp_ns, pascal) if used else "pressure_unused"
+        log = self._pressure[worn]
+        refused = log.add(stamp_ns, pascal) if used else Refusal.PRESSURE_UNUSED
         self._counters[refused or "pressures"] += 1
         return refused
 
-    def take_field(self, foot: str, stamp_ns: int, tesla: Vector) -> str | None:
-        """Take a magnetic field (3,) T; return the name of why not, if it is refused.
+    def take_field(self, foot: str, stamp_ns: int, tesla: Vector) -> Refusal | None:
+        """Take a magnetic field (3,) T; return why it is refused, if it is.
 
         Raises
         ------
@@ -66,7 +68,7 @@ class AidInputs:
         if np.shape(tesla) != (3,):
             raise ConfigError(f"magnetic field has shape {np.shape(tesla)}; allowed is (3,)")
         used = self._config.magnetic_heading
-        refused = self._fields[foot].add(stamp_ns, tesla) if used else "field_unused"
+        refused = self._fields[foot].add(stamp_ns, tesla) if used else Refusal.FIELD_UNUSED
         self._counters[refused or "fields"] += 1
         return refused
 
@@ -80,7 +82,7 @@ class AidInputs:
         """
         _check_worn("magnetic field", foot, FEET)
         if not self._config.magnetic_heading:
-            self._counters["field_unused"] += len(series)
+            self._counters[Refusal.FIELD_UNUSED] += len(series)
             return
         for stamp, tesla in zip(series.stamp_ns.tolist(), series.tesla, strict=True):
             self.take_field(foot, stamp, tesla)

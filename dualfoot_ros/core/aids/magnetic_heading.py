@@ -33,6 +33,7 @@ from ..config_groups import AidsConfig
 from ..constraints.method import Gait, Method, Request, StancePhase
 from ..joint_estimate import JointEstimate, Outcome, nothing_done
 from ..kernel.layout import attitude_row
+from ..refusals import Refusal
 from ..results.events import FEET, EventKind
 from ..results.payloads import FieldDirection, Reason
 from ..samples.series import FloatArray
@@ -66,7 +67,7 @@ class MagneticHeading(Method):
             return ()
         measured = self._measured(stance, moment, gait)
         if measured is None:
-            self._counters["stances_without_field"] += 1
+            self._counters[Refusal.STANCES_WITHOUT_FIELD] += 1
             return ()
 
         trusted = self._in_a_row[foot] + 1 >= self._config.magnetic_stances
@@ -119,7 +120,7 @@ class MagneticHeading(Method):
         if self._reference[foot] is None:
             self._learn(foot, NavigationField(*direction.field))
         elif not outcome.accepted:
-            self._counters["stances_in_disturbed_field"] += 1
+            self._counters[Refusal.STANCES_IN_DISTURBED_FIELD] += 1
 
     def _learn(self, foot: int, field: NavigationField) -> None:
         """Take the mean of the last stances for the reference, if they are all like it."""
@@ -130,7 +131,7 @@ class MagneticHeading(Method):
         if len(first) == enough and all(self._alike(each, mean) for each in first):
             self._reference[foot] = mean
         else:
-            self._counters["stances_before_field_reference"] += 1
+            self._counters[Refusal.STANCES_BEFORE_FIELD_REFERENCE] += 1
 
     def moved(self, up_m: float, turned: float) -> None:
         """Turn the references with the track."""

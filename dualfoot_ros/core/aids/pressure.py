@@ -7,6 +7,7 @@ differences of it are used here, over which the true temperature matters by its 
 
 from __future__ import annotations
 
+from ..refusals import Refusal
 from .log import Log
 
 SEA_LEVEL_PA = 101325.0
@@ -28,9 +29,9 @@ def height_pressure(height_m: float) -> float:
 class PressureLog(Log[float]):
     """What one sensor has measured: heights in m over time."""
 
-    def add(self, stamp_ns: int, pascal: float) -> str | None:
-        """Take a sample; return the name of why not, if it is refused."""
+    def add(self, stamp_ns: int, pascal: float) -> Refusal | None:
+        """Take a sample; return why it is refused, if it is."""
         if not RANGE_PA[0] < pascal < RANGE_PA[1]:
-            return "pressure_out_of_range"
+            return Refusal.PRESSURE_OUT_OF_RANGE
         taken = self.put(stamp_ns, pressure_height(pascal))
-        return None if taken else "pressure_out_of_order"
+        return None if taken else Refusal.PRESSURE_OUT_OF_ORDER

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from ..refusals import Refusal
 from .series import FloatArray, IntArray
 
 LIMIT = 500.0  # m/s^2 and rad/s; no foot-mounted sensor reads more
@@ -24,35 +25,39 @@ class PairGate:
         self._ahead_ns: int | None = None
 
     def refusal(self, stamp: int, values: FloatArray) -> str | None:
-        """Return the name of why a pair is refused, or None.
+        """Return why a pair is refused, or None.
 
-        "time_jumped" is no refusal but says that a new recording begins with this pair.
+        TIME_JUMPED is no refusal but says that a new recording begins with this pair.
         """
         if not math.hypot(*values.tolist()) < LIMIT:  # seldom: so look at each
             for value in values.tolist():
                 if not -LIMIT < value < LIMIT:
-                    return "out_of_range" if math.isfinite(value) else "not_finite"
+                    return _bad_value(value)
         if self.last_ns is None:
             return None
         if stamp > self.last_ns:
             return self._too_far_ahead(stamp, self.last_ns)
         if stamp == self.last_ns:
-            return "duplicate"
-        return "out_of_order" if self.last_ns - stamp < TIME_JUMP_NS else TIME_JUMPED
+            return Refusal.DUPLICATE
+        return Refusal.OUT_OF_ORDER if self.last_ns - stamp < TIME_JUMP_NS else TIME_JUMPED
 
-    def _too_far_ahead(self, stamp: int, last: int) -> str | None:
+    def _too_far_ahead(self, stamp: int, last: int) -> Refusal | None:
         """Refuse one stamp far in the future; a second one after it shows that time did go on."""
         ahead, self._ahead_ns = self._ahead_ns, None
         if stamp - last <= FAR_AHEAD_NS or (ahead and 0 < stamp - ahead <= MAX_GAP_NS):
             return None
         self._ahead_ns = stamp
-        return "far_ahead"
+        return Refusal.FAR_AHEAD
 
     def step(self, stamp: int) -> int:
         """Take a stamp; return the ns since the one before (0 for the first)."""
         dt_ns = 0 if self.last_ns is None else stamp - self.last_ns
         self.last_ns = stamp
         return dt_ns
+
+
+def _bad_value(value: float) -> Refusal:
+    return Refusal.OUT_OF_RANGE if math.isfinite(value) else Refusal.NOT_FINITE
 
 
 def regular_samples(stamps: IntArray, values: FloatArray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Consistent overhead byte stuffing (Cheshire and Baker 1999): bytes without zeros."""
+"""Consistent overhead byte stuffing (Cheshire and Baker 1999): frames without zero bytes."""
 
 
 def decode(stuffed: bytes) -> bytes | None:

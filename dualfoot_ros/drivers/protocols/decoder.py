@@ -1,32 +1,36 @@
-"""What every decoder promises, and the few lines they share.
+"""Interface of the decoders, and the parts that they share.
 
-A decoder takes bytes as they come and gives samples.  It never raises for data, counts all it
-refuses, keeps at most ``max_buffer`` bytes between calls, and is back in step at the latest with
-the second valid frame after any garbage.
+A decoder takes bytes as they come and gives samples.  It never raises for data, counts everything
+that it refuses, keeps at most ``max_buffer`` bytes between calls, and after any garbage is back in
+step with the second valid frame at the latest.
 """
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
-from ...core import Parameters, parameter
+from ...core import Parameters, Refusal, parameter
 from ..sample import Sample, Vector, is_finite
 
-COUNTERS = {
+REFUSALS = (
+    Refusal.GARBAGE_BYTES,
+    Refusal.BAD_CHECKSUM,
+    Refusal.MALFORMED,
+    Refusal.NOT_FINITE,
+    Refusal.INCOMPLETE,
+    Refusal.OTHER,
+    Refusal.LOST,
+    Refusal.REPEATED,
+)
+COUNTERS: Mapping[str, str] = {
     "bytes": "bytes handed to the decoder",
     "samples": "samples delivered",
-    "garbage_bytes": "bytes that belong to no frame",
-    "bad_checksum": "frames refused because their checksum is wrong",
-    "malformed": "frames refused because their content does not fit the format",
-    "not_finite": "samples refused because a value is not a number or infinite",
-    "incomplete": "frames without both specific force and angular rate",
-    "other": "valid frames of kinds that are not used here",
-    "lost": "samples missing by the device's packet counter",
-    "repeated": "samples whose packet counter did not advance",
+    **{str(reason): reason.words for reason in REFUSALS},
 }
-"""What a decoder counts; a name that is absent from ``counters`` has never happened."""
+"""Counters of a decoder and what they count; one that is absent is 0."""
 
 
 class Decoder(Protocol):
@@ -38,7 +42,7 @@ class Decoder(Protocol):
     """True when every call of ``feed`` must bring exactly one message of the transport."""
 
     def feed(self, data: bytes, arrival_ns: int) -> list[Sample]:
-        """Take the next bytes, read at ``arrival_ns`` (host wall clock), and return samples."""
+        """Take the next bytes, read at ``arrival_ns`` (host's wall clock); return samples."""
         ...
 
     def reset(self) -> None:
@@ -52,7 +56,7 @@ class Decoder(Protocol):
 
 
 @dataclass(frozen=True)
-class FieldOptions(Parameters):
+class FieldConfig(Parameters):
     """Options of a decoder whose device sends the magnetic field in a unit of its own."""
 
     field_unit: float = parameter(
@@ -65,22 +69,22 @@ class FieldOptions(Parameters):
 
 
 class PacketCounter:
-    """Count lost and repeated packets from a counter of ``bits`` bits that wraps."""
+    """Counts of lost and repeated packets, from a counter of ``bits`` bits that wraps."""
 
     def __init__(self, counters: Counter[str], bits: int) -> None:
-        """Report into ``counters``."""
+        """Count in ``counters``."""
         self._counters = counters
         self._modulus = 1 << bits
         self._last: int | None = None
 
-    def see(self, counter: int) -> None:
+    def count(self, counter: int) -> None:
         """Take the counter of the next packet; a step of more than half the range is a restart."""
         if self._last is not None:
             step = (counter - self._last) % self._modulus
             if step == 0:
-                self._counters["repeated"] += 1
+                self._counters[Refusal.REPEATED] += 1
             elif step <= self._modulus // 2:
-                self._counters["lost"] += step - 1
+                self._counters[Refusal.LOST] += step - 1
         self._last = counter
 
     def reset(self) -> None:
@@ -88,11 +92,11 @@ class PacketCounter:
         self._last = None
 
 
-def deliver(counters: Counter[str], samples: list[Sample], sample: Sample) -> bool:
-    """Append ``sample`` and count it, or refuse and count it when it is not finite."""
+def append_if_finite(counters: Counter[str], samples: list[Sample], sample: Sample) -> bool:
+    """Append ``sample`` and count it; refuse and count it when it is not finite."""
     field: Vector = sample.magnetic_field or (0.0, 0.0, 0.0)
     if not is_finite(sample.specific_force, sample.angular_rate, field):
-        counters["not_finite"] += 1
+        counters[Refusal.NOT_FINITE] += 1
         return False
     samples.append(sample)
     counters["samples"] += 1

@@ -11,9 +11,9 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, parameter
+from ...core import DEGREE, Refusal, parameter
 from ..sample import Sample, Vector, scaled
-from .decoder import FieldOptions, deliver
+from .decoder import FieldConfig, append_if_finite
 
 STAMP = struct.Struct("<I")
 MOTION = struct.Struct("<6f")
@@ -41,7 +41,7 @@ PAYLOADS = {
 
 
 @dataclass(frozen=True)
-class DotOptions(FieldOptions):
+class DotConfig(FieldConfig):
     """Options of the DOT decoder; the BLE transport asks the device for the same payload."""
 
     payload: str = parameter(
@@ -50,18 +50,18 @@ class DotOptions(FieldOptions):
 
 
 class DotDecoder:
-    """Decode notifications, one a call."""
+    """Decoder of notifications, one a call."""
 
     message_oriented = True
     max_buffer = 0
     buffered = 0
 
-    def __init__(self, options: DotOptions | None = None) -> None:
-        """Expect the payload that ``options`` name."""
-        options = options or DotOptions()
+    def __init__(self, config: DotConfig | None = None) -> None:
+        """Expect the payload that ``config`` names."""
+        config = config or DotConfig()
         self.counters: Counter[str] = Counter()
-        self._payload = PAYLOADS[options.payload]
-        self._field_unit = options.field_unit
+        self._payload = PAYLOADS[config.payload]
+        self._field_unit = config.field_unit
 
     def reset(self) -> None:
         """Do nothing: there are no half messages."""
@@ -71,17 +71,19 @@ class DotDecoder:
         self.counters["bytes"] += len(data)
         samples: list[Sample] = []
         if not self._payload.length <= len(data) <= MAX_MESSAGE:
-            self.counters["malformed"] += 1
-            self.counters["garbage_bytes"] += len(data)
+            self.counters[Refusal.MALFORMED] += 1
+            self.counters[Refusal.GARBAGE_BYTES] += len(data)
             return samples
         (ticks,) = STAMP.unpack_from(data)
         values = MOTION.unpack_from(data, self._payload.motion_at)
         force, rate = scaled(values[:3], 1.0), scaled(values[3:], DEGREE)
-        sample = Sample(arrival_ns, force, rate, ticks, 1000, 32, magnetic_field=self._field(data))
-        deliver(self.counters, samples, sample)
+        sample = Sample(
+            arrival_ns, force, rate, ticks, 1000, 32, magnetic_field=self._read_field(data)
+        )
+        append_if_finite(self.counters, samples, sample)
         return samples
 
-    def _field(self, data: bytes) -> Vector | None:
+    def _read_field(self, data: bytes) -> Vector | None:
         if self._payload.field_at is None or not self._field_unit:
             return None
         steps = FIELD.unpack_from(data, self._payload.field_at)

@@ -1,7 +1,8 @@
-"""Xsens DOT, recorded: the lines of the app's csv export, as they are read.
+"""Xsens DOT, recorded: lines of the app's csv export, decoded as they are read.
 
 The importer in ``recording`` reads a whole export at once and refuses a damaged one; this one
-takes lines as they come (a file that still grows, a pipe) and only refuses damaged lines.
+takes lines as they come (a file that is still being written, a pipe) and refuses only the damaged
+lines.
 """
 
 from __future__ import annotations
@@ -9,9 +10,9 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, Parameters, parameter
+from ...core import DEGREE, Parameters, Refusal, parameter
 from ..sample import Sample, Vector, scaled
-from .decoder import PacketCounter, deliver
+from .decoder import PacketCounter, append_if_finite
 from .framing import DelimitedFramer
 
 FIRST = "PacketCounter"
@@ -21,7 +22,7 @@ MAX_LINE = 1024
 
 
 @dataclass(frozen=True)
-class DotCsvOptions(Parameters):
+class DotCsvConfig(Parameters):
     """Options of the decoder of DOT csv lines."""
 
     field_unit: float = parameter(
@@ -34,17 +35,17 @@ class DotCsvOptions(Parameters):
 
 
 class DotCsvDecoder:
-    """Decode the lines behind the one that names the columns."""
+    """Decoder of the lines after the one that names the columns."""
 
     message_oriented = False
     max_buffer = MAX_LINE
 
-    def __init__(self, options: DotCsvOptions | None = None) -> None:
+    def __init__(self, config: DotCsvConfig | None = None) -> None:
         """Wait for the names of the columns."""
         self.counters: Counter[str] = Counter()
         self._framer = DelimitedFramer(ord("\n"), MAX_LINE, self.counters)
         self._packets = PacketCounter(self.counters, 32)
-        self._field_unit = (options or DotCsvOptions()).field_unit
+        self._field_unit = (config or DotCsvConfig()).field_unit
         self._columns: dict[str, int] | None = None
         self._delimiter = ","
 
@@ -68,30 +69,30 @@ class DotCsvDecoder:
             if line.startswith(FIRST):
                 self._begin(line)
             elif self._columns is None or not line.strip(",; "):
-                self.counters["other"] += 1
+                self.counters[Refusal.OTHER] += 1
             else:
                 self._take(line.split(self._delimiter), arrival_ns, samples)
         return samples
 
     def _begin(self, line: str) -> None:
-        """Learn the columns, unless the export lacks what is needed."""
+        """Read the names of the columns; without those that are needed nothing is decoded."""
         self._delimiter = ";" if ";" in line else ","
         names = [name.strip() for name in line.split(self._delimiter)]
         columns = {name: place for place, name in enumerate(names)}
         complete = all(name in columns for name in (STAMP, *FORCE, *RATE))
         self._columns = columns if complete else None
-        self.counters["incomplete"] += not complete
+        self.counters[Refusal.INCOMPLETE] += not complete
 
     def _take(self, cells: list[str], arrival_ns: int, samples: list[Sample]) -> None:
         assert self._columns is not None
         try:
-            counter, ticks = (self._whole(cells, name) for name in (FIRST, STAMP))
-            force, rate = (self._vector(cells, names) for names in (FORCE, RATE))
-            field = self._vector(cells, FIELD) if self._sends_field() else None
+            counter, ticks = (self._read_whole(cells, name) for name in (FIRST, STAMP))
+            force, rate = (self._read_vector(cells, names) for names in (FORCE, RATE))
+            field = self._read_vector(cells, FIELD) if self._sends_field() else None
         except (ValueError, IndexError):
-            self.counters["malformed"] += 1
+            self.counters[Refusal.MALFORMED] += 1
             return
-        self._packets.see(counter)
+        self._packets.count(counter)
         field = None if field is None else scaled(field, self._field_unit)
         sample = Sample(
             arrival_ns,
@@ -103,19 +104,19 @@ class DotCsvDecoder:
             magnetic_field=field,
             counter=counter,
         )
-        deliver(self.counters, samples, sample)
+        append_if_finite(self.counters, samples, sample)
 
     def _sends_field(self) -> bool:
         return bool(self._field_unit) and FIELD[0] in (self._columns or {})
 
-    def _whole(self, cells: list[str], name: str) -> int:
+    def _read_whole(self, cells: list[str], name: str) -> int:
         assert self._columns is not None
         cell = cells[self._columns[name]].strip()
         if not cell.isascii() or not cell.isdigit() or len(cell) > 10 or int(cell) >> 32:
             raise ValueError(cell)
         return int(cell)
 
-    def _vector(self, cells: list[str], names: tuple[str, ...]) -> Vector:
+    def _read_vector(self, cells: list[str], names: tuple[str, ...]) -> Vector:
         assert self._columns is not None
         texts = [cells[self._columns[name]] for name in names]
         if any("_" in text for text in texts):  # Python's float reads 1_0 as ten

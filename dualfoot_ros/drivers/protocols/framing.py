@@ -1,27 +1,32 @@
-"""Cut a stream of bytes into frames: by a terminating byte, or by header, length and checksum."""
+"""Framers: streams of bytes cut at a terminating byte, or by header, length and checksum."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
 
+from ...core import Refusal
+
 NEED_MORE = 0
 NO_FRAME = -1
 BAD_CHECKSUM = -2
 
 Probe = Callable[[bytearray, int], int]
-"""Look at a frame that may start at an index of the buffer.
+"""Probe of a frame that may start at an index of the buffer.
 
 Returns its length in bytes when it is complete and valid, else NEED_MORE, NO_FRAME or
 BAD_CHECKSUM.
 """
 
 Doubt = Callable[[bytes, bool], bool]
-"""Whether a valid frame may well be chance; the flag says that it follows another directly."""
+"""Doubt about a valid frame, which may be right by chance.
+
+Returns True when it may; the flag says that it follows another frame directly.
+"""
 
 
 class DelimitedFramer:
-    """Split at a byte that occurs nowhere else; a run without it is dropped when too long."""
+    """Framer for a byte that occurs nowhere else; a run without it is dropped when too long."""
 
     def __init__(self, delimiter: int, max_frame: int, counters: Counter[str]) -> None:
         """Keep at most ``max_frame`` bytes of an unfinished frame."""
@@ -38,7 +43,7 @@ class DelimitedFramer:
 
     def reset(self) -> None:
         """Forget an unfinished frame."""
-        self._counters["garbage_bytes"] += len(self._rest)
+        self._counters[Refusal.GARBAGE_BYTES] += len(self._rest)
         self._rest = b""
         self._skipping = False
 
@@ -46,11 +51,11 @@ class DelimitedFramer:
         """Return the frames that ``data`` completes, without their delimiter; none is empty."""
         *whole, rest = (self._rest + data).split(self._delimiter)
         if self._skipping and whole:
-            self._counters["garbage_bytes"] += len(whole.pop(0))
+            self._counters[Refusal.GARBAGE_BYTES] += len(whole.pop(0))
             self._skipping = False
         frames = [frame for frame in whole if frame and self._fits(frame)]
         if self._skipping or not self._fits(rest):
-            self._counters["garbage_bytes"] += len(rest) if self._skipping else 0
+            self._counters[Refusal.GARBAGE_BYTES] += len(rest) if self._skipping else 0
             self._skipping = True
             rest = b""
         self._rest = rest
@@ -59,12 +64,12 @@ class DelimitedFramer:
     def _fits(self, frame: bytes) -> bool:
         if len(frame) <= self._max_frame:
             return True
-        self._counters["garbage_bytes"] += len(frame)
+        self._counters[Refusal.GARBAGE_BYTES] += len(frame)
         return False
 
 
 class HeaderFramer:
-    """Find frames that begin with a known byte and prove themselves by length and checksum.
+    """Framer for frames that begin with a known byte and have a length and a checksum.
 
     Two rules keep it in step.  A frame in ``doubt``, as its checksum is weak, is trusted only when
     the next one follows directly.  And a header that still waits for its bytes, as garbage may
@@ -92,7 +97,7 @@ class HeaderFramer:
 
     def reset(self) -> None:
         """Forget an unfinished frame."""
-        self._counters["garbage_bytes"] += len(self._buffer)
+        self._counters[Refusal.GARBAGE_BYTES] += len(self._buffer)
         self._buffer.clear()
         self._in_step = False
 
@@ -103,12 +108,12 @@ class HeaderFramer:
         frames: list[bytes] = []
         at = 0
         while at < len(buffer):
-            length = self._judge(at)
+            length = self._probe_or_doubt(at)
             if length == NEED_MORE:
-                pair = self._pair_behind(at + 1)
+                pair = self._find_pair(at + 1)
                 if pair is None:
                     break
-                self._counters["garbage_bytes"] += pair - at
+                self._counters[Refusal.GARBAGE_BYTES] += pair - at
                 frames.append(b"")
                 at, length = pair, self._probe(buffer, pair)
             if length > 0:
@@ -121,7 +126,7 @@ class HeaderFramer:
         del buffer[:at]
         return frames
 
-    def _judge(self, at: int) -> int:
+    def _probe_or_doubt(self, at: int) -> int:
         """Probe a frame; in doubt, probe the one that follows as well."""
         length = self._probe(self._buffer, at)
         if length <= 0 or not self._doubt(bytes(self._buffer[at : at + length]), self._in_step):
@@ -132,14 +137,14 @@ class HeaderFramer:
     def _skip(self, at: int, reason: int) -> int:
         """Step over the byte at ``at`` and on to the next possible header."""
         if reason == BAD_CHECKSUM and self._in_step:
-            self._counters["bad_checksum"] += 1
+            self._counters[Refusal.BAD_CHECKSUM] += 1
         self._in_step = False
-        found = self._buffer.find(self._sync, at + 1)
-        end = len(self._buffer) if found < 0 else found
-        self._counters["garbage_bytes"] += end - at
+        header = self._buffer.find(self._sync, at + 1)
+        end = len(self._buffer) if header < 0 else header
+        self._counters[Refusal.GARBAGE_BYTES] += end - at
         return end
 
-    def _pair_behind(self, start: int) -> int | None:
+    def _find_pair(self, start: int) -> int | None:
         """Return where two complete valid frames in a row start, at or after ``start``."""
         at = self._buffer.find(self._sync, start)
         while at >= 0:

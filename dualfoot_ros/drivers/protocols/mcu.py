@@ -1,4 +1,4 @@
-"""The frame for boards of one's own; ``docs/mcu_frame.md`` describes it, with an encoder in C.
+"""Frame for boards of one's own; ``docs/mcu_frame.md`` describes it, with an encoder in C.
 
 COBS, terminated by a zero.  Inside, little-endian: kind u8, counter u16, device time u32 in
 microseconds, six values, what the flags announce, CRC-16/CCITT-FALSE over all before it.
@@ -11,10 +11,10 @@ from binascii import crc_hqx
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import Parameters
+from ...core import Parameters, Refusal
 from ..sample import Sample, Vector, scaled
 from . import cobs
-from .decoder import PacketCounter, deliver
+from .decoder import PacketCounter, append_if_finite
 from .framing import DelimitedFramer
 
 HEADER = struct.Struct("<BHI")
@@ -36,17 +36,17 @@ MAX_FRAME = 64  # the longest is 42 bytes with its COBS code
 
 
 @dataclass(frozen=True)
-class McuOptions(Parameters):
-    """The frame describes itself, so there is nothing to set."""
+class McuConfig(Parameters):
+    """No options: the frame describes itself."""
 
 
 class McuDecoder:
-    """Decode our own frames."""
+    """Decoder of the frame for boards of one's own."""
 
     message_oriented = False
     max_buffer = MAX_FRAME
 
-    def __init__(self, options: McuOptions | None = None) -> None:
+    def __init__(self, config: McuConfig | None = None) -> None:
         """Start with an empty buffer."""
         self.counters: Counter[str] = Counter()
         self._framer = DelimitedFramer(0, MAX_FRAME, self.counters)
@@ -67,20 +67,20 @@ class McuDecoder:
         self.counters["bytes"] += len(data)
         samples: list[Sample] = []
         for frame in self._framer.push(data):
-            content = self._checked(frame)
+            content = self._check(frame)
             if content is not None:
                 self._decode(content, arrival_ns, samples)
         return samples
 
-    def _checked(self, frame: bytes) -> bytes | None:
-        """Return the content of a frame whose checksum is right."""
+    def _check(self, frame: bytes) -> bytes | None:
+        """Return the content of a frame whose checksum is right, else None."""
         plain = cobs.decode(frame)
         if plain is None or len(plain) <= HEADER.size + CRC.size:
-            self.counters["malformed"] += 1
+            self.counters[Refusal.MALFORMED] += 1
             return None
         content = plain[: -CRC.size]
         if crc_hqx(content, 0xFFFF) != CRC.unpack(plain[-CRC.size :])[0]:
-            self.counters["bad_checksum"] += 1
+            self.counters[Refusal.BAD_CHECKSUM] += 1
             return None
         return content
 
@@ -88,19 +88,19 @@ class McuDecoder:
         kind, counter, device_us = HEADER.unpack_from(content)
         layout = LAYOUTS.get(kind & LAYOUT_BITS)
         if layout is None or kind & ~KNOWN_BITS:
-            self.counters["other"] += 1
+            self.counters[Refusal.OTHER] += 1
             return
         if len(content) != HEADER.size + layout.size + _extra_size(kind):
-            self.counters["malformed"] += 1
+            self.counters[Refusal.MALFORMED] += 1
             return
-        force, rate = _motion(layout, layout.unpack_from(content, HEADER.size))
-        temperature, field = _extras(kind, content, HEADER.size + layout.size)
-        self._packets.see(counter)
+        force, rate = _read_motion(layout, layout.unpack_from(content, HEADER.size))
+        temperature, field = _read_extras(kind, content, HEADER.size + layout.size)
+        self._packets.count(counter)
         sample = Sample(arrival_ns, force, rate, device_us, 1000, 32, temperature, field, counter)
-        deliver(self.counters, samples, sample)
+        append_if_finite(self.counters, samples, sample)
 
 
-def _motion(layout: struct.Struct, values: tuple[float, ...]) -> tuple[Vector, Vector]:
+def _read_motion(layout: struct.Struct, values: tuple[float, ...]) -> tuple[Vector, Vector]:
     """Return specific force and angular rate; whole numbers carry their scales before them."""
     if layout is FLOATS:
         return values[0:3], values[3:6]  # type: ignore[return-value]
@@ -112,7 +112,7 @@ def _extra_size(kind: int) -> int:
     return size + (FIELD.size if kind & WITH_FIELD else 0)
 
 
-def _extras(kind: int, content: bytes, at: int) -> tuple[float | None, Vector | None]:
+def _read_extras(kind: int, content: bytes, at: int) -> tuple[float | None, Vector | None]:
     """Return temperature and magnetic field where the flags announce them."""
     temperature = field = None
     if kind & WITH_TEMPERATURE:

@@ -1,4 +1,4 @@
-"""The formats by name: which decoder, and with which options."""
+"""Registry of the formats: decoder, options and description by name."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from typing import Any, NamedTuple
 
 from ...core import Parameters, SourceError
 from .decoder import Decoder
-from .dot import DotDecoder, DotOptions
-from .dot_csv import DotCsvDecoder, DotCsvOptions
-from .mcu import McuDecoder, McuOptions
-from .vectornav import VectorNavDecoder, VectorNavOptions
-from .witmotion import WitMotionDecoder, WitMotionOptions
-from .xbus import XbusDecoder, XbusOptions
-from .ximu3 import XImu3Decoder, XImu3Options
+from .dot import DotConfig, DotDecoder
+from .dot_csv import DotCsvConfig, DotCsvDecoder
+from .mcu import McuConfig, McuDecoder
+from .vectornav import VectorNavConfig, VectorNavDecoder
+from .witmotion import WitMotionConfig, WitMotionDecoder
+from .xbus import XbusConfig, XbusDecoder
+from .ximu3 import XImu3Config, XImu3Decoder
 
 
 class Format(NamedTuple):
-    """A format as a user names it."""
+    """A wire format."""
 
     decoder: Callable[[Any], Decoder]
     options: type[Parameters]
@@ -25,13 +25,13 @@ class Format(NamedTuple):
 
 
 FORMATS: dict[str, Format] = {
-    "mcu": Format(McuDecoder, McuOptions, "frame for boards of one's own, docs/mcu_frame.md"),
-    "ximu3": Format(XImu3Decoder, XImu3Options, "x-io x-IMU3, ASCII and binary"),
-    "witmotion": Format(WitMotionDecoder, WitMotionOptions, "WitMotion serial output"),
-    "xbus": Format(XbusDecoder, XbusOptions, "Xsens MTi, MTData2"),
-    "vectornav": Format(VectorNavDecoder, VectorNavOptions, "VectorNav binary output"),
-    "dot": Format(DotDecoder, DotOptions, "Xsens (Movella) DOT, live over BLE"),
-    "dot_csv": Format(DotCsvDecoder, DotCsvOptions, "csv export of the Xsens DOT app"),
+    "mcu": Format(McuDecoder, McuConfig, "frame for boards of one's own, docs/mcu_frame.md"),
+    "ximu3": Format(XImu3Decoder, XImu3Config, "x-io x-IMU3, ASCII and binary"),
+    "witmotion": Format(WitMotionDecoder, WitMotionConfig, "WitMotion serial output"),
+    "xbus": Format(XbusDecoder, XbusConfig, "Xsens MTi, MTData2"),
+    "vectornav": Format(VectorNavDecoder, VectorNavConfig, "VectorNav binary output"),
+    "dot": Format(DotDecoder, DotConfig, "Xsens (Movella) DOT, live over BLE"),
+    "dot_csv": Format(DotCsvDecoder, DotCsvConfig, "csv export of the Xsens DOT app"),
 }
 
 

@@ -13,9 +13,9 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import lru_cache
 
-from ...core import Parameters, parameter
+from ...core import Parameters, Refusal, parameter
 from ..sample import Sample, Vector, scaled
-from .decoder import deliver
+from .decoder import append_if_finite
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
 
 SYNC = 0xFA
@@ -46,11 +46,12 @@ MAGNETIC_PRESSURE: Field = (0, 10)  # magnetic field, temperature, pressure
 UNCOMPENSATED: tuple[tuple[Field, ...], tuple[Field, ...]] = (((2, 2),), ((2, 3),))
 COMPENSATED: tuple[tuple[Field, ...], tuple[Field, ...]] = (((0, 8), (2, 9)), ((0, 5), (2, 10)))
 TEMPERATURE: Field = (2, 4)
+MOTION_GROUPS = (0, 2)  # common and IMU
 MAGNETIC: tuple[Field, ...] = ((2, 1), (2, 8))
 
 
 @dataclass(frozen=True)
-class VectorNavOptions(Parameters):
+class VectorNavConfig(Parameters):
     """Options of the VectorNav decoder."""
 
     prefer: str = parameter(
@@ -62,16 +63,16 @@ class VectorNavOptions(Parameters):
 
 
 class VectorNavDecoder:
-    """Decode binary messages that hold acceleration and angular rate."""
+    """Decoder of binary messages that hold acceleration and angular rate."""
 
     message_oriented = False
 
-    def __init__(self, options: VectorNavOptions | None = None) -> None:
+    def __init__(self, config: VectorNavConfig | None = None) -> None:
         """Start with an empty buffer."""
         self.counters: Counter[str] = Counter()
         self._framer = HeaderFramer(SYNC, probe, MAX_FRAME, self.counters, never)
         self.max_buffer = self._framer.max_buffer
-        self._uncompensated = (options or VectorNavOptions()).prefer == "uncompensated"
+        self._uncompensated = (config or VectorNavConfig()).prefer == "uncompensated"
         self._temperature: float | None = None
 
     @property
@@ -96,19 +97,20 @@ class VectorNavDecoder:
         offsets = _offsets(frame)
         motion = self._motion(frame, offsets)
         if motion is None:
-            self.counters["incomplete" if any(f[0] in (0, 2) for f in offsets) else "other"] += 1
+            of_motion = any(group in MOTION_GROUPS for group, _ in offsets)
+            self.counters[Refusal.INCOMPLETE if of_motion else Refusal.OTHER] += 1
             return
-        self._temperature = _temperature(frame, offsets, self._temperature)
+        self._temperature = _read_temperature(frame, offsets, self._temperature)
         time = next(
             (STARTUP.unpack_from(frame, offsets[f])[0] for f in TIME if f in offsets), None
         )
-        field = _magnetic(frame, offsets)
+        field = _read_field(frame, offsets)
         sample = Sample(arrival_ns, *motion, time, 1, 64, self._temperature, field)
-        deliver(self.counters, samples, sample)
+        append_if_finite(self.counters, samples, sample)
 
     def _motion(self, frame: bytes, offsets: dict[Field, int]) -> tuple[Vector, Vector] | None:
         """Return specific force and angular rate of the preferred kind, else of the other."""
-        raw, own = _raw(frame, offsets), _vectors(frame, offsets, COMPENSATED)
+        raw, own = _read_raw(frame, offsets), _read_vectors(frame, offsets, COMPENSATED)
         return (raw or own) if self._uncompensated else (own or raw)
 
 
@@ -166,14 +168,14 @@ def _offsets(frame: bytes) -> dict[Field, int]:
     return offsets
 
 
-def _raw(frame: bytes, offsets: dict[Field, int]) -> tuple[Vector, Vector] | None:
+def _read_raw(frame: bytes, offsets: dict[Field, int]) -> tuple[Vector, Vector] | None:
     if IMU in offsets:
         at = offsets[IMU]
         return VECTOR.unpack_from(frame, at), VECTOR.unpack_from(frame, at + VECTOR.size)
-    return _vectors(frame, offsets, UNCOMPENSATED)
+    return _read_vectors(frame, offsets, UNCOMPENSATED)
 
 
-def _vectors(
+def _read_vectors(
     frame: bytes,
     offsets: dict[Field, int],
     wanted: tuple[tuple[Field, ...], tuple[Field, ...]],
@@ -184,7 +186,9 @@ def _vectors(
     return VECTOR.unpack_from(frame, force), VECTOR.unpack_from(frame, rate)
 
 
-def _temperature(frame: bytes, offsets: dict[Field, int], otherwise: float | None) -> float | None:
+def _read_temperature(
+    frame: bytes, offsets: dict[Field, int], otherwise: float | None
+) -> float | None:
     if TEMPERATURE in offsets:
         return float(NUMBER.unpack_from(frame, offsets[TEMPERATURE])[0])
     if MAGNETIC_PRESSURE in offsets:
@@ -193,6 +197,6 @@ def _temperature(frame: bytes, offsets: dict[Field, int], otherwise: float | Non
     return otherwise
 
 
-def _magnetic(frame: bytes, offsets: dict[Field, int]) -> Vector | None:
+def _read_field(frame: bytes, offsets: dict[Field, int]) -> Vector | None:
     at = next((offsets[f] for f in (*MAGNETIC, MAGNETIC_PRESSURE) if f in offsets), None)
     return None if at is None else scaled(VECTOR.unpack_from(frame, at), GAUSS)

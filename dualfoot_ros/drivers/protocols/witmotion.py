@@ -12,9 +12,9 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, STANDARD_GRAVITY, Parameters, parameter
+from ...core import DEGREE, STANDARD_GRAVITY, Parameters, Refusal, parameter
 from ..sample import Sample, Vector, scaled
-from .decoder import deliver
+from .decoder import append_if_finite
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
 
 HEADER = 0x55
@@ -29,7 +29,7 @@ EPOCH = datetime.datetime(2000, 1, 1)
 
 
 @dataclass(frozen=True)
-class WitMotionOptions(Parameters):
+class WitMotionConfig(Parameters):
     """Options of the WitMotion decoder: the ranges the device is set to."""
 
     force_range: float = parameter(
@@ -48,19 +48,19 @@ class WitMotionOptions(Parameters):
 
 
 class WitMotionDecoder:
-    """Pair acceleration and angular rate frames to samples."""
+    """Decoder that pairs acceleration and angular rate frames."""
 
     message_oriented = False
 
-    def __init__(self, options: WitMotionOptions | None = None) -> None:
+    def __init__(self, config: WitMotionConfig | None = None) -> None:
         """Start with an empty buffer."""
-        options = options or WitMotionOptions()
+        config = config or WitMotionConfig()
         self.counters: Counter[str] = Counter()
         self._framer = HeaderFramer(HEADER, probe, LENGTH, self.counters, after_a_gap)
         self.max_buffer = self._framer.max_buffer
-        self._force_scale = options.force_range * STANDARD_GRAVITY / FULL_SCALE
-        self._rate_scale = options.rate_range * DEGREE / FULL_SCALE
-        self._field_unit = options.field_unit
+        self._force_scale = config.force_range * STANDARD_GRAVITY / FULL_SCALE
+        self._rate_scale = config.rate_range * DEGREE / FULL_SCALE
+        self._field_unit = config.field_unit
         self.reset()
 
     @property
@@ -92,26 +92,26 @@ class WitMotionDecoder:
             self._complete(WORDS.unpack(content)[:3], arrival_ns, samples)
         elif kind == ACCELERATION:
             *words, centidegrees = WORDS.unpack(content)
-            self.counters["incomplete"] += self._force is not None
+            self.counters[Refusal.INCOMPLETE] += self._force is not None
             self._force = scaled(tuple(words), self._force_scale)
             self._temperature = centidegrees / 100.0
         elif kind == TIME:
             self._drop_half()
-            self._ticks = _milliseconds(content)
-            self.counters["malformed"] += self._ticks is None
+            self._ticks = _read_milliseconds(content)
+            self.counters[Refusal.MALFORMED] += self._ticks is None
         elif kind == FIELD and self._field_unit:
             self._field = scaled(WORDS.unpack(content)[:3], self._field_unit)
         else:
-            self.counters["other"] += 1
+            self.counters[Refusal.OTHER] += 1
 
     def _drop_half(self) -> None:
-        self.counters["incomplete"] += self._force is not None
+        self.counters[Refusal.INCOMPLETE] += self._force is not None
         self._force = self._ticks = None
 
     def _complete(self, words: tuple[int, ...], arrival_ns: int, samples: list[Sample]) -> None:
         """Make a sample of the acceleration frame before and this angular rate frame."""
         if self._force is None:
-            self.counters["incomplete"] += 1
+            self.counters[Refusal.INCOMPLETE] += 1
             return
         rate = scaled(words, self._rate_scale)
         sample = Sample(
@@ -125,7 +125,7 @@ class WitMotionDecoder:
             self._field,
         )
         self._force = self._ticks = None
-        deliver(self.counters, samples, sample)
+        append_if_finite(self.counters, samples, sample)
 
 
 def probe(buffer: bytearray, at: int) -> int:
@@ -146,7 +146,7 @@ def after_a_gap(_frame: bytes, in_step: bool) -> bool:
     return not in_step
 
 
-def _milliseconds(content: bytes) -> int | None:
+def _read_milliseconds(content: bytes) -> int | None:
     """Return the device's date and time as milliseconds since 2000, or None for no date."""
     year, month, day, hour, minute, second, millisecond = DATE.unpack(content)
     try:

@@ -13,8 +13,9 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ...core import Refusal
 from ..sample import Sample, Vector, scaled
-from .decoder import FieldOptions, PacketCounter, deliver
+from .decoder import FieldConfig, PacketCounter, append_if_finite
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
 
 PREAMBLE = 0xFA
@@ -36,22 +37,22 @@ Items = dict[int, tuple[int, bytes]]
 
 
 @dataclass(frozen=True)
-class XbusOptions(FieldOptions):
+class XbusConfig(FieldConfig):
     """Options of the Xbus decoder."""
 
 
 class XbusDecoder:
-    """Decode MTData2 messages that hold acceleration and rate of turn."""
+    """Decoder of MTData2 messages that hold acceleration and rate of turn."""
 
     message_oriented = False
 
-    def __init__(self, options: XbusOptions | None = None) -> None:
+    def __init__(self, config: XbusConfig | None = None) -> None:
         """Start with an empty buffer."""
         self.counters: Counter[str] = Counter()
         self._framer = HeaderFramer(PREAMBLE, probe, MAX_FRAME, self.counters, no_motion)
         self.max_buffer = self._framer.max_buffer
         self._packets = PacketCounter(self.counters, 16)
-        self._field_unit = (options or XbusOptions()).field_unit
+        self._field_unit = (config or XbusConfig()).field_unit
         self._temperature: float | None = None
 
     @property
@@ -71,37 +72,37 @@ class XbusDecoder:
         samples: list[Sample] = []
         for frame in filter(None, self._framer.push(data)):
             if frame[2] == MTDATA2:
-                self._decode(_content(frame), arrival_ns, samples)
+                self._decode(_cut_content(frame), arrival_ns, samples)
             else:
-                self.counters["other"] += 1
+                self.counters[Refusal.OTHER] += 1
         return samples
 
     def _decode(self, content: bytes, arrival_ns: int, samples: list[Sample]) -> None:
         items = {key & KIND: (key & PRECISION, value) for key, value in items_of(content)}
-        counter = _whole(items, PACKET_COUNTER, 2)
+        counter = _read_whole(items, PACKET_COUNTER, 2)
         if counter is not None:
-            self._packets.see(counter)
-        self._temperature = _first(_reals(items, TEMPERATURE, 1), self._temperature)
-        force = _reals(items, ACCELERATION, 3) or _reals(items, ACCELERATION_HR, 3)
-        rate = _reals(items, RATE_OF_TURN, 3) or _reals(items, RATE_OF_TURN_HR, 3)
+            self._packets.count(counter)
+        self._temperature = _take_first(_read_reals(items, TEMPERATURE, 1), self._temperature)
+        force = _read_reals(items, ACCELERATION, 3) or _read_reals(items, ACCELERATION_HR, 3)
+        rate = _read_reals(items, RATE_OF_TURN, 3) or _read_reals(items, RATE_OF_TURN_HR, 3)
         if force is None or rate is None:
-            self.counters["incomplete"] += 1
+            self.counters[Refusal.INCOMPLETE] += 1
             return
         sample = Sample(
             arrival_ns,
             scaled(force, 1.0),
             scaled(rate, 1.0),
-            _whole(items, SAMPLE_TIME_FINE, 4),
+            _read_whole(items, SAMPLE_TIME_FINE, 4),
             TICK_NS,
             32,
             self._temperature,
             self._field(items),
             counter,
         )
-        deliver(self.counters, samples, sample)
+        append_if_finite(self.counters, samples, sample)
 
     def _field(self, items: Items) -> Vector | None:
-        field = _reals(items, MAGNETIC_FIELD, 3) if self._field_unit else None
+        field = _read_reals(items, MAGNETIC_FIELD, 3) if self._field_unit else None
         return None if field is None else scaled(field, self._field_unit)
 
 
@@ -120,7 +121,7 @@ def probe(buffer: bytearray, at: int) -> int:
     frame = buffer[at : at + length]
     if sum(frame[1:]) & 0xFF:
         return BAD_CHECKSUM
-    if frame[2] == MTDATA2 and not _is_row_of_items(_content(frame)):
+    if frame[2] == MTDATA2 and not _is_row_of_items(_cut_content(frame)):
         return NO_FRAME
     return length
 
@@ -131,7 +132,7 @@ def no_motion(frame: bytes, _in_step: bool) -> bool:
         return True
     return not any(
         key & KIND in MOTION and len(value) == 3 * SIZES[key & PRECISION]
-        for key, value in items_of(_content(frame))
+        for key, value in items_of(_cut_content(frame))
     )
 
 
@@ -148,16 +149,16 @@ def _is_row_of_items(content: bytes) -> bool:
     return sum(3 + len(value) for _, value in items_of(content)) == len(content)
 
 
-def _content(frame: bytes | bytearray) -> bytes:
+def _cut_content(frame: bytes | bytearray) -> bytes:
     return bytes(frame[6:-1] if frame[3] == EXTENDED else frame[4:-1])
 
 
-def _whole(items: Items, key: int, size: int) -> int | None:
+def _read_whole(items: Items, key: int, size: int) -> int | None:
     _, value = items.get(key, (0, b""))
     return int.from_bytes(value, "big") if len(value) == size else None
 
 
-def _reals(items: Items, key: int, count: int) -> tuple[float, ...] | None:
+def _read_reals(items: Items, key: int, count: int) -> tuple[float, ...] | None:
     """Return the ``count`` numbers of an item, or None where it is absent or too short."""
     if key not in items:
         return None
@@ -165,10 +166,10 @@ def _reals(items: Items, key: int, count: int) -> tuple[float, ...] | None:
     size = SIZES[precision]
     if len(value) != count * size:
         return None
-    return tuple(_real(precision, value[k : k + size]) for k in range(0, len(value), size))
+    return tuple(_read_real(precision, value[k : k + size]) for k in range(0, len(value), size))
 
 
-def _real(precision: int, value: bytes) -> float:
+def _read_real(precision: int, value: bytes) -> float:
     if precision == 1:
         return int.from_bytes(value, "big", signed=True) / (1 << 20)
     if precision == 2:  # the fraction, 32 bits, is sent before the whole part, 16 bits
@@ -176,5 +177,5 @@ def _real(precision: int, value: bytes) -> float:
     return float(struct.unpack(">f" if precision == 0 else ">d", value)[0])
 
 
-def _first(values: tuple[float, ...] | None, otherwise: float | None) -> float | None:
+def _take_first(values: tuple[float, ...] | None, otherwise: float | None) -> float | None:
     return otherwise if values is None else values[0]

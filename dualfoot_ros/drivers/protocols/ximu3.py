@@ -1,4 +1,4 @@
-"""x-io x-IMU3: ASCII and binary data messages, alike on USB, serial, UDP and TCP.
+"""x-io x-IMU3: ASCII and binary data messages, the same on USB, serial, UDP and TCP.
 
 After the maker's x-IMU3 User Manual, chapter "Communication protocol".  Every message ends with
 a line feed.  ASCII: a letter, microseconds, values.  Binary: the letter + 0x80, microseconds as
@@ -13,9 +13,9 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, STANDARD_GRAVITY
+from ...core import DEGREE, STANDARD_GRAVITY, Refusal
 from ..sample import Sample, Vector, scaled
-from .decoder import FieldOptions, deliver
+from .decoder import FieldConfig, append_if_finite
 from .framing import DelimitedFramer
 
 END, ESCAPE, ESCAPED_END, ESCAPED_ESCAPE = b"\n", b"\xdb", b"\xdb\xdc", b"\xdb\xdd"
@@ -27,21 +27,21 @@ MAX_MESSAGE = 512
 
 
 @dataclass(frozen=True)
-class XImu3Options(FieldOptions):
+class XImu3Config(FieldConfig):
     """Options of the x-IMU3 decoder."""
 
 
 class XImu3Decoder:
-    """Decode x-IMU3 messages, ASCII and binary mixed as they come."""
+    """Decoder of x-IMU3 messages, ASCII and binary in any mixture."""
 
     message_oriented = False
     max_buffer = MAX_MESSAGE
 
-    def __init__(self, options: XImu3Options | None = None) -> None:
+    def __init__(self, config: XImu3Config | None = None) -> None:
         """Start with an empty buffer."""
         self.counters: Counter[str] = Counter()
         self._framer = DelimitedFramer(END[0], MAX_MESSAGE, self.counters)
-        self._field_unit = (options or XImu3Options()).field_unit
+        self._field_unit = (config or XImu3Config()).field_unit
         self._temperature: float | None = None
         self._field: Vector | None = None
 
@@ -51,7 +51,7 @@ class XImu3Decoder:
         return self._framer.buffered
 
     def reset(self) -> None:
-        """Forget a half-received message and what other messages told."""
+        """Forget a half-received message, temperature and field."""
         self._framer.reset()
         self._temperature = self._field = None
 
@@ -62,11 +62,11 @@ class XImu3Decoder:
         for message in self._framer.push(data):
             letter = chr(message[0] & 0x7F)
             if letter not in VALUES:
-                self.counters["other"] += 1
+                self.counters[Refusal.OTHER] += 1
                 continue
-            parsed = _binary(message) if message[0] & BINARY else _ascii(message)
+            parsed = _parse_binary(message) if message[0] & BINARY else _parse_ascii(message)
             if parsed is None or len(parsed[1]) != VALUES[letter]:
-                self.counters["malformed"] += 1
+                self.counters[Refusal.MALFORMED] += 1
                 continue
             self._take(letter, *parsed, arrival_ns, samples)
         return samples
@@ -80,7 +80,7 @@ class XImu3Decoder:
         samples: list[Sample],
     ) -> None:
         if not all(map(math.isfinite, values)):
-            self.counters["not_finite"] += 1
+            self.counters[Refusal.NOT_FINITE] += 1
         elif letter == "T":
             self._temperature = values[0]
         elif letter == "M":
@@ -88,13 +88,13 @@ class XImu3Decoder:
         else:
             force, rate = scaled(values[3:], STANDARD_GRAVITY), scaled(values[:3], DEGREE)
             extras = self._temperature, self._field
-            deliver(
+            append_if_finite(
                 self.counters, samples, Sample(arrival_ns, force, rate, ticks, 1000, 64, *extras)
             )
 
 
-def _binary(message: bytes) -> tuple[int, tuple[float, ...]] | None:
-    plain = _unstuffed(message)
+def _parse_binary(message: bytes) -> tuple[int, tuple[float, ...]] | None:
+    plain = _unstuff(message)
     if plain is None or len(plain) < 1 + STAMP.size or (len(plain) - 1 - STAMP.size) % 4:
         return None
     count = (len(plain) - 1 - STAMP.size) // 4
@@ -102,7 +102,7 @@ def _binary(message: bytes) -> tuple[int, tuple[float, ...]] | None:
     return ticks, struct.unpack_from(f"<{count}f", plain, 1 + STAMP.size)
 
 
-def _unstuffed(message: bytes) -> bytes | None:
+def _unstuff(message: bytes) -> bytes | None:
     """Undo the byte stuffing, or return None where an escape is followed by anything else."""
     first, *parts = message.split(ESCAPE)
     plain = [first]
@@ -113,7 +113,7 @@ def _unstuffed(message: bytes) -> bytes | None:
     return b"".join(plain)
 
 
-def _ascii(message: bytes) -> tuple[int, tuple[float, ...]] | None:
+def _parse_ascii(message: bytes) -> tuple[int, tuple[float, ...]] | None:
     fields = message.split(b",")
     if b"_" in message or len(fields) < 3 or len(fields[0]) != 1:
         return None

@@ -1,4 +1,4 @@
-"""Network addresses as they stand in the URI of a source."""
+"""Network addresses, as they stand in the URI of a source."""
 
 from __future__ import annotations
 
@@ -49,5 +49,5 @@ def _is_host(host: str) -> bool:
 
 def resolve(address: Address, kind: socket.SocketKind) -> tuple[socket.AddressFamily, Any]:
     """Return family and socket address; raise :class:`OSError` when the name is unknown."""
-    family, _, _, _, found = socket.getaddrinfo(address.host, address.port, type=kind)[0]
-    return family, found
+    family, _, _, _, resolved = socket.getaddrinfo(address.host, address.port, type=kind)[0]
+    return family, resolved

@@ -1,4 +1,4 @@
-"""Xsens (Movella) DOT over Bluetooth Low Energy, by bleak, which is an optional extra.
+"""Xsens (Movella) DOT over Bluetooth Low Energy, read by bleak, which is an optional extra.
 
 After the Movella DOT BLE Service Specification (XD0506P), section 3: notifications of the
 measurement characteristic, started and stopped by three bytes to the control characteristic.
@@ -9,14 +9,13 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import re
-from collections import Counter
 from dataclasses import dataclass
 from importlib import util
 from typing import Any
 
 from ...core import Parameters, SourceError, parameter
-from ..protocols.dot import PAYLOADS, DotOptions
-from .transport import POLL_S
+from ..protocols.dot import PAYLOADS, DotConfig
+from .transport import POLL_S, Transport
 
 UUID = "1517{:04x}-4947-11e9-8646-d663bd873d93"
 CONTROL = 0x2001
@@ -27,7 +26,7 @@ ADDRESS = re.compile(rf"({HEX}{{2}}:){{5}}{HEX}{{2}}|{HEX}{{8}}(-{HEX}{{4}}){{3}
 
 
 @dataclass(frozen=True)
-class BleOptions(Parameters):
+class BleConfig(Parameters):
     """Options of a Bluetooth source."""
 
     connect: float = parameter(
@@ -42,20 +41,18 @@ class BleOptions(Parameters):
     )
 
 
-class BleTransport:
-    """Start a DOT measuring and read its notifications, one a call."""
-
-    reopens = True
+class BleTransport(Transport):
+    """Notifications of a measuring DOT, one a call."""
 
     def __init__(
-        self, address: str, options: BleOptions | None = None, dot: DotOptions | None = None
+        self, address: str, config: BleConfig | None = None, dot: DotConfig | None = None
     ) -> None:
         """Name the device (``D4:22:CD:00:12:34``); nothing is opened yet.
 
         Raises
         ------
         SourceError
-            When the address is none, or bleak is not installed.
+            When the address is not one of Bluetooth, or bleak is not installed.
         """
         if ADDRESS.fullmatch(address) is None:
             raise SourceError(
@@ -64,13 +61,12 @@ class BleTransport:
             )
         if util.find_spec("bleak") is None:
             raise SourceError("a ble:// source needs bleak: pip install 'dualfoot_ros[ble]'")
-        options = options or BleOptions()
-        self.description = f"BLE {address}"
-        self.counters: Counter[str] = Counter()
-        self.silence_s = options.silence
+        super().__init__(f"BLE {address}")
+        config = config or BleConfig()
+        self.silence_s = config.silence
         self._address = address
-        self._connect_s = options.connect
-        self._payload = PAYLOADS[(dot or DotOptions()).payload]
+        self._connect_s = config.connect
+        self._payload = PAYLOADS[(dot or DotConfig()).payload]
         self._loop: asyncio.AbstractEventLoop | None = None
         self._client: Any = None
 
@@ -86,7 +82,7 @@ class BleTransport:
             raise OSError(f"{type(error).__name__}: {error}") from error
 
     def read(self) -> bytes:
-        """Return one notification; raise :class:`OSError` when the device has gone."""
+        """Return one notification; raise :class:`OSError` when the device has disconnected."""
         assert self._loop is not None
         try:
             data = self._loop.run_until_complete(asyncio.wait_for(self._queue.get(), POLL_S))

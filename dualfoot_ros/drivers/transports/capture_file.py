@@ -1,19 +1,18 @@
-"""Files: captured bytes of a device, or a csv export; also one that is still being written."""
+"""Files: captured bytes of a device, or a csv export, also while it is still being written."""
 
 from __future__ import annotations
 
 import time
-from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
 from ...core import Parameters, SourceError, parameter
-from .transport import CHUNK, POLL_S
+from .transport import CHUNK, POLL_S, Transport
 
 
 @dataclass(frozen=True)
-class FileOptions(Parameters):
+class FileConfig(Parameters):
     """Options of a file."""
 
     speed: float = parameter(
@@ -25,13 +24,12 @@ class FileOptions(Parameters):
     follow: bool = parameter(False, "wait at the end for what is still being written")
 
 
-class FileTransport:
-    """Read a file from its start."""
+class FileTransport(Transport):
+    """A file, read from its start."""
 
     reopens = False
-    silence_s = 0.0
 
-    def __init__(self, path: str, options: FileOptions | None = None) -> None:
+    def __init__(self, path: str, config: FileConfig | None = None) -> None:
         """Name the file; nothing is opened yet.
 
         Raises
@@ -42,9 +40,9 @@ class FileTransport:
         self._path = Path(path).expanduser()
         if not self._path.exists() or self._path.is_dir():
             raise SourceError(f"the file '{path}' does not exist or is a folder")
-        self.description = str(path)
-        self.counters: Counter[str] = Counter()
-        self._follow = (options or FileOptions()).follow
+        super().__init__(str(path))
+        config = config or FileConfig()
+        self.speed, self._follow = config.speed, config.follow
         self._file: BinaryIO | None = None
 
     def open(self) -> None:

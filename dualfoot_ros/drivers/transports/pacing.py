@@ -1,4 +1,4 @@
-"""Hand on recorded samples as fast as they were taken."""
+"""Pace of a recording: its samples handed on as fast as they were taken."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ LONGEST_STEP_NS = 10_000_000_000  # a longer step of the device's clock is a res
 
 
 class Pacer:
-    """Wait before each sample until it is due by the device's own clock.
+    """Hands on each sample when it is due by the device's own clock.
 
     Samples without device time are handed on at once.  Their arrival is set to the moment they
     are handed on.

@@ -1,4 +1,4 @@
-"""Whose samples come on a port that takes what anybody sends."""
+"""Samples counted by sender, for a port on which any device may send."""
 
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ MAX_SENDERS = 16
 
 
 class Senders:
-    """Counts samples by the address they came from, those of the newest ``MAX_SENDERS``.
+    """Counter of samples by the address they came from, for the newest ``MAX_SENDERS`` addresses.
 
-    ``returns`` counts how often an address delivered again after another one had.  Devices that
-    share a port take turns and both return; one that starts again with a new port does not.
+    ``returns`` counts how often an address sent again after another one had.  Devices that share
+    a port take turns, so that each returns; a device that starts again with a new port does not.
     """
 
     def __init__(self) -> None:
-        """Start with none."""
+        """Start with no sender."""
         self.samples: dict[str, int] = {}
         self.returns: dict[str, int] = {}
         self._last: str | None = None
 
-    def see(self, sender: str, samples: int) -> None:
-        """Take the number of samples that a datagram of ``sender`` brought."""
+    def count(self, sender: str, samples: int) -> None:
+        """Count the samples that a datagram of ``sender`` brought."""
         if sender == self._last:
             self.samples[sender] += samples
             return

@@ -1,19 +1,18 @@
-"""Serial ports, USB ones included, by pyserial."""
+"""Serial ports, USB ones included, read by pyserial."""
 
 from __future__ import annotations
 
 import contextlib
-from collections import Counter
 from dataclasses import dataclass
 from importlib import util
 from typing import Any
 
 from ...core import Parameters, SourceError, parameter
-from .transport import POLL_S
+from .transport import POLL_S, Transport
 
 
 @dataclass(frozen=True)
-class SerialOptions(Parameters):
+class SerialConfig(Parameters):
     """Options of a serial port."""
 
     baud: int = parameter(115200, "bits a second", unit="1/s", minimum=300, maximum=12_000_000)
@@ -26,12 +25,10 @@ class SerialOptions(Parameters):
     )
 
 
-class SerialTransport:
-    """Read a serial port; nobody else can open it meanwhile."""
+class SerialTransport(Transport):
+    """A serial port; no other process can open it meanwhile."""
 
-    reopens = True
-
-    def __init__(self, path: str, options: SerialOptions | None = None) -> None:
+    def __init__(self, path: str, config: SerialConfig | None = None) -> None:
         """Name the port, as in ``/dev/ttyUSB0`` or ``COM3``; nothing is opened yet.
 
         Raises
@@ -43,11 +40,10 @@ class SerialTransport:
             raise SourceError(
                 "a serial:// source needs the package pyserial: pip install pyserial"
             )
-        options = options or SerialOptions()
-        self.description = path
-        self.counters: Counter[str] = Counter()
-        self.silence_s = options.silence
-        self._baud = options.baud
+        super().__init__(path)
+        config = config or SerialConfig()
+        self.silence_s = config.silence
+        self._baud = config.baud
         self._port: Any = None
 
     def open(self) -> None:
@@ -76,7 +72,7 @@ class SerialTransport:
 
 @contextlib.contextmanager
 def _as_os_error() -> Any:
-    """Let what pyserial and the terminal layer raise besides OSError become one."""
+    """Turn the other exceptions of pyserial and the terminal layer into OSError."""
     try:
         yield
     except OSError:

@@ -1,20 +1,19 @@
-"""TCP: connect to a device that serves its samples."""
+"""TCP: a connection to a device that serves its samples."""
 
 from __future__ import annotations
 
 import socket
-from collections import Counter
 from dataclasses import dataclass
 
 from ...core import Parameters, SourceError, parameter
 from .address import Address
-from .transport import CHUNK, POLL_S
+from .transport import CHUNK, POLL_S, Transport
 
 CONNECT_S = 1.0
 
 
 @dataclass(frozen=True)
-class TcpOptions(Parameters):
+class TcpConfig(Parameters):
     """Options of a TCP source."""
 
     silence: float = parameter(
@@ -26,29 +25,26 @@ class TcpOptions(Parameters):
     )
 
 
-class TcpTransport:
-    """Read what a server sends."""
+class TcpTransport(Transport):
+    """Connection to one server."""
 
-    reopens = True
-
-    def __init__(self, address: Address, options: TcpOptions | None = None) -> None:
+    def __init__(self, address: Address, config: TcpConfig | None = None) -> None:
         """Name the server; nothing is opened yet.
 
         Raises
         ------
         SourceError
-            When the port is 0, where nobody can be.
+            When the port is 0, which no server can have.
         """
         if address.port == 0:
             raise SourceError(f"the address is '{address}'; allowed is a port from 1 to 65535")
-        self.description = f"TCP {address}"
-        self.counters: Counter[str] = Counter()
-        self.silence_s = (options or TcpOptions()).silence
+        super().__init__(f"TCP {address}")
+        self.silence_s = (config or TcpConfig()).silence
         self._address = address
         self._socket: socket.socket | None = None
 
     def open(self) -> None:
-        """Connect; raise :class:`OSError` when nobody answers within a second."""
+        """Connect; raise :class:`OSError` when no server answers within a second."""
         self._socket = socket.create_connection(self._address, timeout=CONNECT_S)
         self._socket.settimeout(POLL_S)
 

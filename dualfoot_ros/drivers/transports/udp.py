@@ -1,56 +1,47 @@
-"""UDP: bind a port and take datagrams, from listed peers only where a list is given."""
+"""UDP: datagrams on a bound port, from listed peers only where a list is given."""
 
 from __future__ import annotations
 
 import ipaddress
 import socket
-from collections import Counter
 from dataclasses import dataclass
 
-from ...core import Parameters, SourceError, parameter
+from ...core import Parameters, Refusal, SourceError, parameter
 from .address import Address, resolve
 from .senders import MAX_SENDERS
-from .transport import POLL_S
+from .transport import POLL_S, Transport
 
 MAX_DATAGRAM = 65535
 RECEIVE_BUFFER = 1 << 20  # bytes; a stall of a second or two loses nothing
 
 
 @dataclass(frozen=True)
-class UdpOptions(Parameters):
+class UdpConfig(Parameters):
     """Options of a UDP source."""
 
     peers: str = parameter("", "IP addresses to take datagrams from, with commas; empty: any")
 
 
-class UdpTransport:
-    """Take datagrams on one port.
+class UdpTransport(Transport):
+    """Datagrams on one port; those of others than the peers are counted as ``foreign``."""
 
-    ``sender`` is the address and port of the newest datagram.  Datagrams of others than the
-    peers are counted as ``foreign``, and ``strangers`` holds their addresses.
-    """
+    connectionless = True
 
-    reopens = True
-    silence_s = 0.0  # there is no link that could be dead
-
-    def __init__(self, address: Address, options: UdpOptions | None = None) -> None:
-        """Name what to bind; nothing is opened yet.
+    def __init__(self, address: Address, config: UdpConfig | None = None) -> None:
+        """Name the address to bind; nothing is opened yet.
 
         Raises
         ------
         SourceError
             When a peer is no IP address.
         """
-        self.description = f"UDP {address}"
-        self.counters: Counter[str] = Counter()
-        self.sender = ""
-        self.strangers: dict[str, int] = {}
+        super().__init__(f"UDP {address}")
         self._address = address
-        self.peers = frozenset(_peers((options or UdpOptions()).peers))
+        self.peers = frozenset(_parse_peers((config or UdpConfig()).peers))
         self._socket: socket.socket | None = None
 
     def open(self) -> None:
-        """Bind the port; raise :class:`OSError` when it is taken or the address not ours."""
+        """Bind the port; raise :class:`OSError` when it is taken or the address is not ours."""
         family, address = resolve(self._address, socket.SOCK_DGRAM)
         self._socket = socket.socket(family, socket.SOCK_DGRAM)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVE_BUFFER)
@@ -66,14 +57,14 @@ class UdpTransport:
             return b""
         host = sender[0].partition("%")[0]
         if self.peers and host not in self.peers:
-            self._refuse(host)
+            self._count_stranger(host)
             return b""
         self.sender = str(Address(host, sender[1]))
         self.counters["datagrams"] += 1
         return data
 
-    def _refuse(self, host: str) -> None:
-        self.counters["foreign"] += 1
+    def _count_stranger(self, host: str) -> None:
+        self.counters[Refusal.FOREIGN] += 1
         if host in self.strangers or len(self.strangers) < MAX_SENDERS:
             self.strangers[host] = self.strangers.get(host, 0) + 1
 
@@ -89,7 +80,7 @@ class UdpTransport:
             self._socket = None
 
 
-def _peers(text: str) -> list[str]:
+def _parse_peers(text: str) -> list[str]:
     peers = [part.strip() for part in text.split(",") if part.strip()]
     try:
         return [str(ipaddress.ip_address(peer)) for peer in peers]

@@ -1,1 +1,1 @@
-"""The parts of ``imu_adapter``."""
+"""Parts of the node ``imu_adapter``."""

@@ -1,4 +1,4 @@
-"""A sensor that the drivers read: its samples with the device's own time, and how it fares."""
+"""Device: a sensor read by the drivers, its samples with its own time, and its state."""
 
 from __future__ import annotations
 
@@ -10,31 +10,32 @@ from collections.abc import Callable
 import numpy as np
 from rclpy.node import Node
 
-from ...core import FloatArray, SourceError, Vector
-from ...drivers import Checks, Sample, Source, State, UdpTransport
-from ...settings import Input as InputOptions
+from ...core import FloatArray, Refusal, SourceError, Vector
+from ...drivers import CheckConfig, Sample, Source, State
+from ...settings import InputConfig
 from ...timing import Counter, Unwrapper
-from ..ros.diagnostics import ERROR, OK, WARN, Status
-from ..ros.watched_input import Complaint, silence
-from .losses import MIXED, REFUSED, in_words, increases
+from ..ros.status import ERROR, OK, WARN, Finding, FindingKind, Status
+from ..ros.watched_input import silence
+from .losses import REFUSED, in_words, increases
 
 Take = Callable[[int | None, int, FloatArray, Vector | None], None]
 
 
 class Device:
-    """Hands on ``(device_ns or None, arrival_ns, values (6,), field (3,) T or None)``.
+    """A sensor whose samples are handed to ``take`` from a thread of its own.
 
-    It does so from a thread of its own.  ``begin`` is called from there, with the event that says
-    stop, before the first sample: a file waits in it for its listeners.  So is ``ended``, once:
-    without a reason when a file is over, with one when reading has failed for good.
+    ``take`` is called with device time (ns, or None), arrival (ns), values (6,) and field (3,) T
+    or None.  ``begin`` is called from the same thread before the first sample, with an event that
+    is set when the device is stopped: a file waits there for its listeners.  ``ended`` is called
+    once: without a reason when a file is over, with one when reading has failed for good.
     """
 
     def __init__(
         self,
         node: Node,
         uri: str,
-        checks: Checks,
-        options: InputOptions,
+        checks: CheckConfig,
+        config: InputConfig,
         take: Take,
         ended: Callable[[SourceError | None], None],
         begin: Callable[[threading.Event], None] | None = None,
@@ -47,20 +48,20 @@ class Device:
             When the URI, an option in it or the file it names is not allowed.
         """
         self._node, self._hand_on, self._ended, self._begin = node, take, ended, begin
-        self._options = options
+        self._config = config
         self.without_time = 0
         self.temperature = math.nan
         self._unwrapper: Unwrapper | None = None
         self._last_s = time.monotonic()
-        self._said = OK
-        self._told = State.STOPPED
-        self._at_last: dict[str, int] = {}  # what was counted when the last good sample came
+        self._logged_level = OK
+        self._state = State.STOPPED
+        self._at_last: dict[str, int] = {}  # the refusals, when the last good sample came
         self._returns: dict[str, int] = {}
         self._sent: dict[str, int] = {}
         self.source = Source(
             uri,
             self._take,
-            on_state=self._changed,
+            on_state=self._change,
             checks=checks,
             clock=lambda: int(node.get_clock().now().nanoseconds),
             before_first=self._wait_to_begin,
@@ -75,11 +76,11 @@ class Device:
         self.source.stop()
 
     def _take(self, samples: list[Sample]) -> None:
-        self._last_s, self._at_last = time.monotonic(), self._counted()
+        self._last_s, self._at_last = time.monotonic(), self._count_refused()
         try:
             for sample in samples:
                 values = np.array((*sample.specific_force, *sample.angular_rate))
-                device_ns, field = self._device_ns(sample), sample.magnetic_field
+                device_ns, field = self._read_time(sample), sample.magnetic_field
                 self._hand_on(device_ns, sample.arrival_ns, values, field)
         except Exception:
             if self._node.context.ok():
@@ -87,8 +88,8 @@ class Device:
         if samples[-1].temperature is not None:
             self.temperature = samples[-1].temperature
 
-    def _device_ns(self, sample: Sample) -> int | None:
-        """Return the device's time without wraps, or None where it sends none."""
+    def _read_time(self, sample: Sample) -> int | None:
+        """Return the device's time in ns without wraps, or None where it sends none."""
         if sample.ticks is None:
             self.without_time += 1
             return None
@@ -98,37 +99,37 @@ class Device:
             )
         return self._unwrapper.time_ns(sample.ticks, sample.arrival_ns)
 
-    def _changed(self, state: State, reason: str) -> None:
+    def _change(self, state: State, reason: str) -> None:
         log, uri = self._node.get_logger(), self.source.uri
         if state is State.CONNECTED:
-            if self.source.reader.counters["opened"] == 1:  # to open again is no sign of life
+            if self.source.reader.counters["opened"] == 1:  # opening again shows nothing
                 self._last_s = time.monotonic()
             log.info(f"source '{uri}' is connected")
-        elif state is State.WAITING and self._told is not State.WAITING:
-            log.warning(f"source '{uri}' is not there and is tried again: {reason}")
+        elif state is State.WAITING and self._state is not State.WAITING:
+            log.warning(f"source '{uri}' is not available and is tried again: {reason}")
         elif state is State.FAILED and self._node.context.ok():
             self._ended(SourceError(f"source '{uri}' has failed: {reason}"))
         elif state is State.ENDED:
-            self._ended(self._emptiness())
-        self._told = state
+            self._ended(self._check_empty())
+        self._state = state
 
     def _wait_to_begin(self, stop: threading.Event) -> None:
         if self._begin is not None:
-            self._last_s = math.inf  # waiting is no silence
+            self._last_s = math.inf  # who waits is not silent
             self._begin(stop)
             self._last_s = time.monotonic()
 
-    def _emptiness(self) -> SourceError | None:
-        """Return what to say of a file without any sample, or None when it had some."""
-        found = self.source.decoder.counters
-        if found["samples"]:
+    def _check_empty(self) -> SourceError | None:
+        """Return an error for a file without any sample, None when it had some."""
+        counters = self.source.decoder.counters
+        if counters["samples"]:
             return None
         return SourceError(
-            f"source '{self.source.uri}' has no sample in {found['bytes']} bytes: check format"
+            f"source '{self.source.uri}' has no sample in {counters['bytes']} bytes: check format"
         )
 
     def describe(self, status: Status) -> None:
-        """Put link, decoder, checks and counter into a report."""
+        """Add link, decoder, checks and device time to a status."""
         status.values["link"] = self.source.state.value
         status.values["reconnects"] = max(0, self.source.reader.counters["opened"] - 1)
         status.values |= self.source.counters
@@ -138,87 +139,82 @@ class Device:
             status.values |= {f"ticks {k}": n for k, n in self._unwrapper.counters.items()}
         if self.without_time:
             status.values["without_time"] = self.without_time
-            status.note(WARN, "the device sends no time: its samples get that of their arrival")
+            text = "the device sends no time: its samples get that of their arrival"
+            status.note(Finding(FindingKind.NO_DEVICE_TIME, WARN, text))
         self._describe_senders(status)
         self._describe_silence(status)
 
     def _describe_senders(self, status: Status) -> None:
-        """Say whose datagrams come, and warn when those of several devices mix."""
-        if not isinstance(self.source.transport, UdpTransport):
+        """Add the senders, and a warning when the samples of several devices mix."""
+        if not self.source.transport.connectionless:
             return
         samples, returns = dict(self.source.senders.samples), dict(self.source.senders.returns)
         status.values["senders"] = len(samples)
         if self.source.transport.strangers:
-            status.values["foreign senders"] = self._strangers()
+            status.values["foreign senders"] = self._list_strangers()
         back = [name for name, n in increases(returns, self._returns).items() if n > 0]
         sent = increases(samples, self._sent)
         self._returns, self._sent = returns, samples
         if len(back) > 1:
             names = ", ".join(f"{name} ({sent.get(name, 0)} samples)" for name in sorted(back))
-            status.note(
-                WARN,
+            text = (
                 f"{len(back)} devices send to one port and their samples mix: {names}; give each "
-                "a port of its own, or list the address of the right one in peers",
-                MIXED,
+                "a port of its own, or list the address of the right one in peers"
             )
+            status.note(Finding(FindingKind.MIXED_SENDERS, WARN, text, logged=True))
 
-    def _strangers(self) -> str:
-        assert isinstance(self.source.transport, UdpTransport)
-        found = dict(self.source.transport.strangers)
-        return ", ".join(f"{count} datagrams from {host}" for host, count in found.items())
+    def _list_strangers(self) -> str:
+        strangers = dict(self.source.transport.strangers)
+        return ", ".join(f"{count} datagrams from {host}" for host, count in strangers.items())
 
-    def _counted(self) -> dict[str, int]:
-        """Return what was refused so far, by name."""
+    def _count_refused(self) -> dict[str, int]:
+        """Return the refusals so far, by reason."""
         parts = self.source.decoder, self.source.check, self.source.transport
-        names = (*REFUSED, "foreign")
-        return {name: sum(part.counters[name] for part in parts) for name in names}
+        reasons = (*REFUSED, Refusal.FOREIGN)
+        return {reason: sum(part.counters[reason] for part in parts) for reason in reasons}
 
     def _describe_silence(self, status: Status) -> None:
         complaint = self.complaint()
         if complaint is None:
-            self._said = OK
+            self._logged_level = OK
             return
-        status.note(*complaint)
-        if self.source.state in (State.WAITING, State.FAILED):
-            return  # that was said when it became so
-        if complaint.level > self._said:
-            self._node.get_logger().warning(complaint.message)
-            self._said = complaint.level
+        status.note(complaint)
+        if complaint.kind is FindingKind.LINK_DOWN:
+            return  # it was logged when it went down
+        if complaint.level > self._logged_level:
+            self._node.get_logger().warning(complaint.text)
+            self._logged_level = complaint.level
 
-    def complaint(self) -> Complaint | None:
+    def complaint(self) -> Finding | None:
         """Return why no sample comes, or None when samples do."""
         state, reason, uri = self.source.state, self.source.reader.reason, self.source.uri
+        who = f"source '{uri}' is {state.value}"
         if state in (State.WAITING, State.FAILED):
-            return Complaint(ERROR, f"source '{uri}' is {state.value}: {reason}")
+            return Finding(FindingKind.LINK_DOWN, ERROR, f"{who}: {reason}")
         silent_s = time.monotonic() - self._last_s
-        if state not in (State.CONNECTING, State.CONNECTED) or silent_s < self._options.silence:
+        if state not in (State.CONNECTING, State.CONNECTED) or silent_s < self._config.silence:
             return None
-        decoder = self.source.decoder.counters
-        since = increases(self._counted(), self._at_last)
-        if since["foreign"]:
-            return Complaint(ERROR, self._misdirected())
-        refused = in_words(since)
-        if refused and (decoder["samples"] or decoder["not_finite"]):
-            return Complaint(
-                ERROR,
-                f"source '{uri}' is {state.value} but nothing that came can be used for "
-                f"{silent_s:.1f} s: {refused}",
-            )
-        if decoder["samples"] or not decoder["bytes"]:
-            who = f"source '{uri}' is {state.value}"
-            return silence(who, decoder["samples"] > 0, silent_s, self._options)
-        return Complaint(
-            ERROR,
-            f"source '{uri}' sends bytes but no sample was found in {decoder['bytes']}: "
+        counters = self.source.decoder.counters
+        refused = increases(self._count_refused(), self._at_last)
+        if refused[Refusal.FOREIGN]:
+            return Finding(FindingKind.STRANGERS_ONLY, ERROR, self._describe_strangers())
+        reasons = in_words(refused)
+        if reasons and (counters["samples"] or counters[Refusal.NOT_FINITE]):
+            text = f"{who} but nothing that came can be used for {silent_s:.1f} s: {reasons}"
+            return Finding(FindingKind.NOTHING_USABLE, ERROR, text)
+        if counters["samples"] or not counters["bytes"]:
+            return silence(who, counters["samples"] > 0, silent_s, self._config)
+        text = (
+            f"source '{uri}' sends bytes but no sample was found in {counters['bytes']} of them: "
             "check format and baud, and what the device is set to send"
-            + (f" ({refused})" if refused else ""),
         )
+        text += f" ({reasons})" if reasons else ""
+        return Finding(FindingKind.NO_FRAMES, ERROR, text)
 
-    def _misdirected(self) -> str:
-        """Return what to say when datagrams come, from others than the peers."""
-        assert isinstance(self.source.transport, UdpTransport)
+    def _describe_strangers(self) -> str:
+        """Return the text about datagrams that come from others than the peers only."""
         peers = ", ".join(sorted(self.source.transport.peers))
         return (
-            f"source '{self.source.uri}' takes nothing: it got {self._strangers()}, which is not "
-            f"among the peers ({peers}): check peers"
+            f"source '{self.source.uri}' accepts nothing: it received {self._list_strangers()}, "
+            f"which is not among the peers ({peers}): check peers"
         )

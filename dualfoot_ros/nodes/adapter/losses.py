@@ -1,71 +1,73 @@
-"""How much of what a sensor sends is lost on the way or cannot be used, and why."""
+"""Losses of a sensor: samples that are lost on the way or refused, and the reasons."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..ros.diagnostics import WARN, Status
+from ...core import Refusal
+from ..ros.status import WARN, Finding, FindingKind, Status
 
 SHARE = 0.03  # of the samples of a period; fewer are only counted
 LEAST = 3  # samples
 LEAST_BYTES = 100
-REFUSED = {
-    "not_finite": "not finite",
-    "out_of_range": "out of range",
-    "bad_checksum": "with a wrong checksum",
-    "malformed": "malformed",
-    "incomplete": "without specific force or angular rate",
-}
-WORDS = {"lost": "lost on the way", **REFUSED}
-GARBAGE = "garbage_bytes"
-MIXED = "senders"
-"""The kind of the finding that several devices share a port."""
+REFUSED = (
+    Refusal.NOT_FINITE,
+    Refusal.OUT_OF_RANGE,
+    Refusal.BAD_CHECKSUM,
+    Refusal.MALFORMED,
+    Refusal.INCOMPLETE,
+)
+LOSSES = (Refusal.LOST, *REFUSED)
+BYTES, SAMPLES = "bytes", "samples"
 
 
-def counts(counters: Mapping[str, int]) -> dict[str, int]:
-    """Return the counters that tell of samples and what became of them; absent is 0."""
-    return {name: counters.get(name, 0) for name in ("bytes", "samples", GARBAGE, *WORDS)}
+def select_counts(counters: Mapping[str, int]) -> dict[str, int]:
+    """Return the counters of samples and of the reasons for losses; an absent one is 0."""
+    names = (BYTES, SAMPLES, Refusal.GARBAGE_BYTES, *LOSSES)
+    return {name: counters.get(name, 0) for name in names}
 
 
 def increases(now: Mapping[str, int], before: Mapping[str, int]) -> dict[str, int]:
-    """Return by how much each counter has grown."""
+    """Return the increase of each counter."""
     return {name: count - before.get(name, 0) for name, count in now.items()}
 
 
-def lost(found: Mapping[str, int]) -> int:
+def count_lost(counts: Mapping[str, int]) -> int:
     """Return the samples lost on the way; a frame that cannot be read is not lost as well."""
-    unread = found.get("bad_checksum", 0) + found.get("malformed", 0)
-    return max(0, found.get("lost", 0) - unread)
+    unread = counts.get(Refusal.BAD_CHECKSUM, 0) + counts.get(Refusal.MALFORMED, 0)
+    return max(0, counts.get(Refusal.LOST, 0) - unread)
 
 
-def in_words(found: Mapping[str, int]) -> str:
-    """Return the counts that are not zero with what they count; empty when all are."""
-    return _listed({**found, "lost": lost(found)})
+def in_words(counts: Mapping[str, int]) -> str:
+    """Return the losses that are not zero, each with its count; empty when all are."""
+    return _list({**counts, Refusal.LOST: count_lost(counts)})
 
 
-def _listed(found: Mapping[str, int]) -> str:
-    words = [f"{found[name]} {what}" for name, what in WORDS.items() if found.get(name)]
-    if found.get(GARBAGE):
-        words.append(f"{found[GARBAGE]} bytes in no frame")
-    return ", ".join(words)
+def _list(counts: Mapping[str, int]) -> str:
+    reasons = [reason for reason in (*LOSSES, Refusal.GARBAGE_BYTES) if counts.get(reason)]
+    return ", ".join(f"{reason.words} ({counts[reason]})" for reason in reasons)
 
 
-class Refusals:
-    """Warns when more than a few percent of a report's period are lost or refused."""
+class LossReport:
+    """Warning when more than a few percent of a report's period are lost or refused."""
 
     def __init__(self) -> None:
         self._before: dict[str, int] = {}
 
     def describe(self, counters: Mapping[str, int], status: Status) -> None:
-        """Take the counters at the end of a period, and say what is too much."""
-        now = counts(counters)
-        found, self._before = increases(now, self._before), now
-        total = found["samples"] + sum(found[name] for name in REFUSED if name != "out_of_range")
-        found["lost"] = lost(found)
-        total += found["lost"]
-        much = {n: found[n] for n in WORDS if found[n] >= max(LEAST, SHARE * total)}
-        if found[GARBAGE] >= max(LEAST_BYTES, SHARE * found["bytes"]):
-            much[GARBAGE] = found[GARBAGE]
-        if much and MIXED not in status.logged:  # between two numberings there are only holes
-            said = f"since the last report, of {total} samples: {_listed(much)}"
-            status.note(WARN, said, f"refused {', '.join(much)}")
+        """Take the counters at the end of a period; add the losses that are too many."""
+        now = select_counts(counters)
+        counts, self._before = increases(now, self._before), now
+        counts[Refusal.LOST] = count_lost(counts)
+        missing = (reason for reason in LOSSES if reason is not Refusal.OUT_OF_RANGE)
+        total = counts[SAMPLES] + sum(counts[reason] for reason in missing)
+        limit = max(LEAST, SHARE * total)
+        many: dict[str, int] = {r: counts[r] for r in LOSSES if counts[r] >= limit}
+        garbage = counts[Refusal.GARBAGE_BYTES]
+        if garbage >= max(LEAST_BYTES, SHARE * counts[BYTES]):
+            many[Refusal.GARBAGE_BYTES] = garbage
+        mixed = any(status.of_kind(FindingKind.MIXED_SENDERS))
+        if many and not mixed:  # between the numberings of two devices there are only holes
+            text = f"lost or refused of {total} samples since the last report: {_list(many)}"
+            about = " ".join(many)
+            status.note(Finding(FindingKind.LOSSES, WARN, text, about, logged=True))

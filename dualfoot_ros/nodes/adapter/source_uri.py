@@ -1,4 +1,4 @@
-"""Where the samples of ``imu_adapter`` come from: a source is named by a URI."""
+"""Sources of the samples of ``imu_adapter``, named by URIs."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 from ...core import ConfigError, ImuSeries
 from ...drivers import FORMATS, parse_uri
 from ...recording import RecordingError, read_bag
+from ...settings import AdapterConfig
+from ...timing import Stamping
 from ..ros.program import in_one_line
 
 RECORDED = "file"
 DEVICE = "device"
 BAGS = (".mcap", ".db3")
-CAPTURED = tuple(name for name in FORMATS if name != "dot")  # that comes over BLE only
+CAPTURED = tuple(name for name in FORMATS if name != "dot")  # which comes over BLE only
 ALLOWED = (
     "topic:///NAME or file://PATH (the folder of a bag, a .mcap, a .db3, an Xsens DOT .csv), or a "
     "device, as in serial:///dev/ttyUSB0?baud=921600&format=mcu, udp://:8000?format=ximu3, "
@@ -28,7 +30,7 @@ DEVICES = ("serial", "udp", "tcp", "ble")
 
 
 class Source(NamedTuple):
-    """A parsed source: its kind ("topic", "file" for recordings, "device") and what it names."""
+    """A parsed source: its kind ("topic", "file" for recordings, "device") and its target."""
 
     kind: str
     target: str
@@ -42,7 +44,7 @@ def parse(uri: str) -> Source:
     Raises
     ------
     ConfigError
-        For an unknown scheme, or what cannot be the name of a topic; says what is allowed.
+        For an unknown scheme or an impossible name of a topic; says what is allowed.
     SourceError
         For a device with an unknown format or option; says which.
     """
@@ -76,8 +78,16 @@ def _check_name(uri: str, name: str) -> None:
 
 
 def is_live(source: Source) -> bool:
-    """Tell whether a source is a device whose samples come as they are taken."""
+    """Return whether a source is a device whose samples come as they are taken."""
     return source.kind == DEVICE and urlsplit(source.target).scheme in DEVICES
+
+
+def choose_stamping(source: Source, config: AdapterConfig, foot: str) -> Stamping:
+    """Return the stamping of the samples of ``foot`` that the parameters ask for."""
+    policy = config.stamp
+    if policy == "auto":
+        policy = "device" if is_live(source) else "header"
+    return Stamping.from_mapping({foot: policy, f"{foot}_offset": config.stamp_offset})
 
 
 def load(source: Source, foot: str) -> ImuSeries:

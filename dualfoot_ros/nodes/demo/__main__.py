@@ -1,4 +1,4 @@
-"""The demonstration: a recorded walk through the real nodes, compared with its truth."""
+"""Demonstration: a recorded walk through the real nodes, compared with its truth."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ examples:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the demonstration; return the exit code."""
     with _abrupt_ctrl_c():
-        args = _arguments(argv)
+        args = _parse_arguments(argv)
         from rich import console, progress  # noqa: F401
 
         from ... import evaluation, recording  # noqa: F401
         from ...core import DualFootError
-        from ...settings import presets  # noqa: F401
+        from ...settings import load_config  # noqa: F401
     try:
-        return run(args.bag, args.output, args.methods or _methods(), args.config)
+        return run(args.bag, args.output, args.methods or _choose_methods(), args.config)
     except KeyboardInterrupt:
         return 130
     except (DualFootError, OSError) as error:
@@ -45,12 +45,12 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def run(bag: Path, output: Path, methods: Sequence[str], config: str | None = None) -> int:
-    """Replay ``bag`` for each method, print one table, write the plots and say where they are.
+    """Replay ``bag`` for each method; print one table and the paths of the plots.
 
     Raises
     ------
     DualFootError
-        When the bag, a method or the configuration is not as it should be.
+        When the bag, a method or the configuration cannot be used.
     """
     from rich.console import Console
 
@@ -62,7 +62,7 @@ def run(bag: Path, output: Path, methods: Sequence[str], config: str | None = No
     configs = {name: load_config(config, {"method": name}) for name in methods}
     recording = read_bag(bag)
     _check(recording, truth_of(recording) is not None, bag)
-    runs = _live(bag, configs, console)
+    runs = _run_live(bag, configs, console)
     for name, live in runs.items():
         _compare(name, live, recording, configs[name], console)
     tracks: dict[str, Trajectory] = {name: live.trajectory for name, live in runs.items()}
@@ -73,7 +73,7 @@ def run(bag: Path, output: Path, methods: Sequence[str], config: str | None = No
     return 0
 
 
-def _arguments(argv: Sequence[str] | None) -> argparse.Namespace:
+def _parse_arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="demo",
         description="Replay a bag through replay, time_sync and fusion; compare with its truth.",
@@ -89,7 +89,7 @@ def _arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     return parser.parse_args(argv)
 
 
-def _methods() -> list[str]:
+def _choose_methods() -> list[str]:
     from ...core import TrackerConfig
 
     return list(dict.fromkeys(["zupt", TrackerConfig().method]))
@@ -105,7 +105,9 @@ def _check(recording: Recording, has_truth: bool, bag: Path) -> None:
         raise DualFootError(f"bag '{bag}' has no truth of both feet to compare with")
 
 
-def _live(bag: Path, configs: dict[str, TrackerConfig], console: Console) -> dict[str, LiveRun]:
+def _run_live(
+    bag: Path, configs: dict[str, TrackerConfig], console: Console
+) -> dict[str, LiveRun]:
     """Run the graph in a context of its own that stays on this machine."""
     from rich.progress import Progress
 
@@ -134,9 +136,9 @@ def _live(bag: Path, configs: dict[str, TrackerConfig], console: Console) -> dic
 
 @contextmanager
 def _abrupt_ctrl_c() -> Iterator[None]:
-    """Let Ctrl-C end the process at once, with 130, while nothing has been begun.
+    """Let Ctrl-C end the process at once, with code 130, while nothing has begun.
 
-    An exception in the midst of an import may come out of it as another one, with a traceback.
+    An exception in the middle of an import may come out of it as another one, with a traceback.
     """
     before = signal.signal(signal.SIGINT, lambda *_: os._exit(130))
     try:
@@ -147,7 +149,7 @@ def _abrupt_ctrl_c() -> Iterator[None]:
 
 @contextmanager
 def _patient_ctrl_c() -> Iterator[threading.Event]:
-    """Yield an event that Ctrl-C sets: within rclpy's own code an exception would be mangled."""
+    """Yield an event that Ctrl-C sets: an exception could strike inside rclpy's own code."""
     asked = threading.Event()
     before = signal.signal(signal.SIGINT, lambda *_: asked.set())
     try:
@@ -159,7 +161,7 @@ def _patient_ctrl_c() -> Iterator[threading.Event]:
 def _compare(
     name: str, live: LiveRun, recording: Recording, config: TrackerConfig, console: Console
 ) -> None:
-    """Say whether the offline run of the same samples gives the same numbers."""
+    """Print whether the offline run of the same samples gives the same numbers."""
     from ...core import DualFootError
     from .live_graph import run_offline, same_bits
 
@@ -168,12 +170,12 @@ def _compare(
     batch = run_offline(samples, config, recording.pressure)
     epochs = len(live.trajectory.left)
     if same_bits(live.trajectory, batch):
-        said = f"{epochs} epochs, equal to the offline run to the bit"
+        text = f"{epochs} epochs, equal to the offline run to the bit"
     elif live.lost:
-        said = f"{epochs} epochs, {live.lost} messages were lost, so it differs from offline"
+        text = f"{epochs} epochs, {live.lost} messages were lost, so it differs from offline"
     else:
         raise DualFootError(f"{name}: live and offline differ although nothing was lost")
-    console.print(f"{name}: {said}")
+    console.print(f"{name}: {text}")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""A recording through the real nodes, as fast as they go and without loss, in this process.
+"""Graph of the real nodes in this process, as fast as they go and without loss.
 
 replay -> time_sync -> fusion (one for each method) -> collector.  Each takes its samples from
 topics as any node does; only the speed is set by how far the slowest of them has come.
@@ -38,29 +38,32 @@ from ..time_sync import TimeSyncNode
 from .collector import CollectorNode
 
 AHEAD = 200  # samples that may be under way between two nodes
-PATIENCE_S = 5.0  # without progress: what is missing was lost
-SPINS = 50  # between two looks at the progress
+PATIENCE_S = 5.0  # without progress: the missing messages were lost
+SPINS = 50  # between two checks of the progress
 Progress = Callable[[float], None]
 
 
 @dataclass(frozen=True)
 class LiveRun:
-    """What one fusion node published, and what became of the samples on the way."""
+    """Trajectory that one fusion node published, with the samples lost on the way.
+
+    ``counters`` are those of its tracker.
+    """
 
     trajectory: Trajectory
     lost: int
-    refused: Mapping[str, int]
+    counters: Mapping[str, int]
 
 
 class LiveGraph:
-    """The nodes of a run, and how far each has come."""
+    """Nodes of a run, and the messages that are under way between them."""
 
     def __init__(
         self, bag: Path, configs: Mapping[str, TrackerConfig], context: rclpy.Context
     ) -> None:
         self.context = context
         self._names = list(configs)
-        # The numbers of the process keep the demonstration apart from any other graph.
+        # A number of its own keeps this graph apart from any other.
         self._space = f"dualfoot_{time.time_ns() % 10**9}"
         self._nodes: list[Node] = []
         try:
@@ -76,11 +79,11 @@ class LiveGraph:
             space = f"/{name}"
             values = {**config.to_mapping(), "sync": "external", "engine": "compiled"}
             self.fusions[name] = self._add(
-                FusionNode, values, space, cli_args=_inputs(self._space)
+                FusionNode, values, space, cli_args=_remap_inputs(self._space)
             )
             self.collectors[name] = self._add(CollectorNode, {}, space)
         values = {"bag": str(bag), "clock": False}
-        self.replay = self._add(ReplayNode, values, "", gate=self._may_go_on)
+        self.replay = self._add(ReplayNode, values, "", gate=self._has_room)
 
     def _add(self, kind: Callable[..., Any], values: dict, space: str, **options: Any) -> Any:
         overrides = [Parameter(name, value=value) for name, value in values.items()]
@@ -95,22 +98,22 @@ class LiveGraph:
 
     def _under_way(self) -> list[int]:
         """Return how many samples wait between the nodes, a number a hop."""
-        received = sum(each.received for each in self.sync.inputs.values())
-        pairs = self.sync.aligner.counters["pairs"]
+        received = self.sync.streams.received
+        pairs = self.sync.streams.aligner.counters["pairs"]
         pressures = self.replay.pressure.sent
-        fields = sum(each.sent for each in self.replay.fields.values())
-        found = [self.replay.player.played - pressures - fields - received]
+        fields = sum(output.sent for output in self.replay.fields.values())
+        waiting = [self.replay.player.played - pressures - fields - received]
         for name, fusion in self.fusions.items():
             collector = self.collectors[name].messages
-            found.append(2 * pairs - sum(each.received for each in fusion.inputs.values()))
+            waiting.append(2 * pairs - fusion.streams.received)
             if fusion.pressure is not None:
-                found.append(pressures - fusion.pressure.received)
+                waiting.append(pressures - fusion.pressure.received)
             if fusion.fields is not None:
-                found.append(fields - fusion.fields.received)
-            found.append(3 * fusion.outputs.published - sum(map(len, collector.values())))
-        return found
+                waiting.append(fields - fusion.fields.received)
+            waiting.append(3 * fusion.outputs.published - sum(map(len, collector.values())))
+        return waiting
 
-    def _may_go_on(self) -> bool:
+    def _has_room(self) -> bool:
         return max(self._under_way()) < AHEAD
 
     def run(self, progress: Progress) -> None:
@@ -152,8 +155,8 @@ class LiveGraph:
         """Return what the fusion node of a method published."""
         fusion = self.fusions[name]
         method, counters = fusion.tracker.config.method, dict(fusion.tracker.counters)
-        inputs = [*self.sync.inputs.values(), *fusion.inputs.values()]
-        lost = sum(each.lost for each in inputs) + sum(max(0, n) for n in self._under_way())
+        lost = self.sync.streams.lost + fusion.streams.lost
+        lost += sum(max(0, waiting) for waiting in self._under_way())
         return LiveRun(self.collectors[name].trajectory(method, counters), lost, counters)
 
     def close(self) -> None:
@@ -194,7 +197,7 @@ def run_offline(
 
 
 def same_bits(live: Trajectory, batch: Trajectory) -> bool:
-    """Tell whether two runs agree to the bit in all that is published unchanged."""
+    """Return whether two runs agree to the bit in everything that is published unchanged."""
     pairs = [(live.left, batch.left), (live.right, batch.right)]
     fields = ("stamp_ns", "position", "quaternion", "position_covariance", "attitude_covariance")
     return all(
@@ -202,7 +205,7 @@ def same_bits(live: Trajectory, batch: Trajectory) -> bool:
     )
 
 
-def _inputs(space: str) -> list[str]:
+def _remap_inputs(space: str) -> list[str]:
     names = [*(f"{foot}/imu/data_sync" for foot in FEET), *TOPICS.values(), *MAGNETIC.values()]
     remaps = [f"{name}:=/{space}/{name}" for name in names]
     return ["--ros-args", *(word for remap in remaps for word in ("-r", remap))]

@@ -1,1 +1,1 @@
-"""What the nodes take in: stamps, calibrations, field and pressure topics."""
+"""Inputs of the nodes: streams of the feet, their stamps, calibrations, field and pressure."""

@@ -1,4 +1,4 @@
-"""Calibrations that the parameter ``calibration`` of a node names."""
+"""Calibrations from the file that the parameter ``calibration`` of a node names."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from ...calibration import (
     for_feet,
     sensor_calibration,
 )
+from ...core import FEET
 
 FOOT_UNKNOWN = (
     "nothing says which foot this sensor is on: set foot to left or right, or run it in the "
@@ -20,19 +21,27 @@ FOOT_UNKNOWN = (
 )
 
 
-def of_feet(path: str) -> dict[str, SensorCalibration]:
-    """Return the calibrations of the feet in a file; none where no file is named.
+def find_foot(parameter: str, namespace: str) -> str | None:
+    """Return the foot that the parameter or the namespace names; None when neither does."""
+    if parameter != "auto":
+        return parameter
+    named = [foot for foot in FEET if foot in namespace.split("/")]
+    return named[0] if named else None
+
+
+def load_for_feet(path: str) -> dict[str, SensorCalibration]:
+    """Return the calibrations of the feet in a file; empty where no file is named.
 
     Raises
     ------
     CalibrationError
         When the file cannot be read or used; names the parameter.
     """
-    with _named(path):
+    with _name_parameter(path):
         return for_feet([path] if path else [])
 
 
-def of_sensor(path: str, foot: str | None) -> SensorCalibration | None:
+def load_for_sensor(path: str, foot: str | None) -> SensorCalibration | None:
     """Return the calibration of one sensor; None where no file is named.
 
     Raises
@@ -42,7 +51,7 @@ def of_sensor(path: str, foot: str | None) -> SensorCalibration | None:
     """
     if not path:
         return None
-    with _named(path):
+    with _name_parameter(path):
         sensors = Calibration.load(path).sensors
         if foot is None and set(sensors) != {ANY}:
             raise CalibrationError(f"'{path}' is for {' and '.join(sensors)}, and {FOOT_UNKNOWN}")
@@ -50,8 +59,8 @@ def of_sensor(path: str, foot: str | None) -> SensorCalibration | None:
 
 
 @contextmanager
-def _named(path: str) -> Iterator[None]:
-    """Put the name of the parameter before what is wrong with its file."""
+def _name_parameter(path: str) -> Iterator[None]:
+    """Put the name of the parameter before the error of its file."""
     try:
         yield
     except OSError as error:

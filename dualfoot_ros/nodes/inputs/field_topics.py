@@ -1,8 +1,9 @@
-"""The magnetic field of the feet's sensors, in and out."""
+"""Topics of the magnetic field of the feet's sensors, as inputs and as outputs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from rclpy.node import Node
@@ -10,18 +11,20 @@ from sensor_msgs.msg import MagneticField
 
 from ...core import FEET, FloatArray
 from ...recording import Topics
-from ...settings import Input as InputOptions
+from ...settings import InputConfig
 from ...timing import Stamping
 from ..ros import qos
 from ..ros.messages import set_time, to_ns
-from ..ros.watched_input import Complaint, Input, watched_publisher
+from ..ros.status import Finding, Status
+from ..ros.watched_input import WatchedInput
+from ..ros.watched_publisher import watched_publisher
 
 TOPICS = {foot: Topics().of(foot).magnetic_field.lstrip("/") for foot in FEET}
 Take = Callable[[str, int, list[float]], Any]
 
 
-class FieldInput(Input):
-    """One foot's field; says what misses it when nothing comes."""
+class FieldInput(WatchedInput):
+    """Subscription to one foot's field; its complaint names the aid that lacks it."""
 
     def __init__(
         self, node: Node, foot: str, take: Callable[[MagneticField], None], depth: int
@@ -30,15 +33,15 @@ class FieldInput(Input):
         super().__init__(node, MagneticField, TOPICS[foot], take, qos.sensor(depth))
         self._foot = foot
 
-    def complaint(self, options: InputOptions) -> Complaint | None:
-        """Return why nothing came for ``options.silence``, or None when something did."""
-        found = super().complaint(options)
-        if found is None:
+    def complaint(self, config: InputConfig) -> Finding | None:
+        """Return why nothing came for ``config.silence``, or None when something did."""
+        complaint = super().complaint(config)
+        if complaint is None:
             return None
-        said = (
+        lacking = (
             f"aids.magnetic_heading is on but there is no magnetic field of the {self._foot} foot"
         )
-        return Complaint(found.level, f"{said}: {found.message}")
+        return replace(complaint, text=f"{lacking}: {complaint.text}")
 
 
 class FieldInputs:
@@ -59,10 +62,10 @@ class FieldInputs:
     @property
     def received(self) -> int:
         """Messages of both feet that have arrived."""
-        return sum(each.received for each in self.feet.values())
+        return sum(watched.received for watched in self.feet.values())
 
     def stamped(self, foot: str, header_ns: int, stamp_ns: int) -> None:
-        """Take note of the stamp that a sample of ``foot`` was given."""
+        """Take the stamp that a sample of ``foot`` was given."""
         self._added_ns[foot] = stamp_ns - header_ns
 
     def _receiver(self, foot: str) -> Callable[[MagneticField], None]:
@@ -75,7 +78,7 @@ class FieldInputs:
 
 
 class FieldOutput:
-    """Publishes one sensor's field; ``sent`` counts what has gone out."""
+    """Publisher of one sensor's field; ``sent`` counts the published samples."""
 
     def __init__(self, node: Node, topic: str, frame_id: str, depth: int) -> None:
         """Publish on ``topic``."""
@@ -89,6 +92,10 @@ class FieldOutput:
         message = self._message
         set_time(message.header.stamp, stamp_ns)
         field = message.magnetic_field
-        field.x, field.y, field.z = (float(each) for each in tesla)
+        field.x, field.y, field.z = (float(component) for component in tesla)
         self._out.publish(message)
         self.sent += 1
+
+    def describe(self, status: Status) -> None:
+        """Add the number of published samples to a status."""
+        status.values["magnetic fields"] = self.sent

@@ -1,4 +1,4 @@
-"""Air pressure as an input: barometers on the feet or on the body, whichever there are."""
+"""Topics of air pressure: barometers on the feet or on the body, as inputs and as outputs."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from sensor_msgs.msg import FluidPressure
 
 from ...core import PressureSeries
 from ...recording import PRESSURE_TOPICS
-from ...settings import Input as InputOptions
+from ...settings import InputConfig
 from ..ros import qos
 from ..ros.messages import set_time, to_ns
-from ..ros.watched_input import Complaint, Input, watched_publisher
+from ..ros.status import Finding
+from ..ros.watched_input import WatchedInput
+from ..ros.watched_publisher import watched_publisher
 
 TOPICS = {worn: topic.lstrip("/") for worn, topic in PRESSURE_TOPICS.items()}
 Take = Callable[[str, int, float], Any]
@@ -22,43 +24,42 @@ Take = Callable[[str, int, float], Any]
 class PressureInputs:
     """Subscriptions to all pressure topics, of which one that delivers is enough.
 
-    To a :class:`dualfoot_ros.nodes.ros.watched_input.Watch` it is one input.
+    To a :class:`dualfoot_ros.nodes.ros.watched_input.InputMonitor` it is one input.
     """
 
     def __init__(self, node: Node, take: Take, depth: int) -> None:
         """``take`` is called with where the sensor is worn, stamp (ns) and pressure (Pa)."""
         profile = qos.sensor(depth)
         self._inputs = [
-            Input(node, FluidPressure, topic, _receiver(worn, take), profile)
+            WatchedInput(node, FluidPressure, topic, _receiver(worn, take), profile)
             for worn, topic in TOPICS.items()
         ]
 
     @property
     def topic(self) -> str:
-        """The names of the topics."""
-        return " or ".join(each.topic for each in self._inputs)
+        """Names of the topics."""
+        return " or ".join(watched.topic for watched in self._inputs)
 
     @property
     def received(self) -> int:
         """Samples that have arrived."""
-        return sum(each.received for each in self._inputs)
+        return sum(watched.received for watched in self._inputs)
 
     @property
     def lost(self) -> int:
         """Samples that were published but have not arrived."""
-        return sum(each.lost for each in self._inputs)
+        return sum(watched.lost for watched in self._inputs)
 
-    def complaint(self, options: InputOptions) -> Complaint | None:
+    def complaint(self, config: InputConfig) -> Finding | None:
         """Return why no sensor delivers, or None when one does; as bad as the best of them."""
-        found = [each.complaint(options) for each in self._inputs]
-        reasons = [each for each in found if each is not None]
-        if len(reasons) < len(found):
+        complaints = [watched.complaint(config) for watched in self._inputs]
+        reasons = [complaint for complaint in complaints if complaint is not None]
+        if len(reasons) < len(complaints):
             return None
-        said = "; ".join(each.message for each in reasons)
-        return Complaint(
-            min(each.level for each in reasons),
-            f"aids.barometer is on but there is no air pressure: {said}",
-        )
+        best = min(reasons, key=lambda reason: reason.level)
+        texts = "; ".join(reason.text for reason in reasons)
+        text = f"aids.barometer is on but there is no air pressure: {texts}"
+        return Finding(best.kind, best.level, text, about="pressure")
 
 
 def _receiver(worn: str, take: Take) -> Callable[[FluidPressure], None]:
@@ -69,7 +70,7 @@ def _receiver(worn: str, take: Take) -> Callable[[FluidPressure], None]:
 
 
 class PressureOutputs:
-    """Publishers of recorded pressure; ``sent`` counts what has gone out."""
+    """Publishers of recorded pressure; ``sent`` counts the published samples."""
 
     def __init__(self, node: Node, pressure: dict[str, PressureSeries], depth: int) -> None:
         """Publish for the sensors that ``pressure`` has, by where they are worn."""

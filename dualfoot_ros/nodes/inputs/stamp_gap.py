@@ -1,4 +1,4 @@
-"""Which foot's stamps are behind, by how much, and what to do about it."""
+"""Gap between the stamps of the feet: the foot that is behind, by how much, and the remedy."""
 
 from __future__ import annotations
 
@@ -6,19 +6,18 @@ import time
 
 from ...core import FEET
 from ...timing import Aligner
-from ..ros.diagnostics import ERROR, WARN, Status
+from ..ros.status import ERROR, WARN, Finding, FindingKind, Status
 
 UNPAIRED_S = 2.0  # without a pair while both feet deliver, by the wall clock
-DELIVERS_S = 1.0  # a foot without a sample for longer is silent, which is said elsewhere
+DELIVERS_S = 1.0  # a foot without a sample for longer is silent, which its input reports
 REMEDY = (
     "set stamping.left and stamping.right to device (stamp, where imu_adapter does it), or "
-    "add {offset:.3f} s with stamping.right_offset; a recording is brought together by "
-    "dualfoot sync"
+    "add {offset:.3f} s with stamping.right_offset; for a recording use dualfoot sync"
 )
 
 
-class Apart:
-    """Compares the stamps of both feet as they are given to an aligner."""
+class StampGap:
+    """Comparison of the stamps of both feet, as they are given to an aligner."""
 
     def __init__(self, aligner: Aligner) -> None:
         self._aligner = aligner
@@ -28,7 +27,7 @@ class Apart:
         self._pairs = self._late = 0
         self._unpaired_s: float | None = None  # since when both deliver and no pair is made
 
-    def see(self, foot: str, stamp_ns: int) -> None:
+    def observe(self, foot: str, stamp_ns: int) -> None:
         """Take the stamp of a sample that is given to the aligner."""
         self._newest_ns[foot], self._seen_s[foot] = stamp_ns, time.monotonic()
         other_ns = self._newest_ns.get(_other(foot))
@@ -36,31 +35,25 @@ class Apart:
             self._behind_ns[foot] = max(self._behind_ns[foot], other_ns - stamp_ns)
 
     def describe(self, status: Status) -> None:
-        """Put into a report how far the feet are apart, and what that has cost."""
+        """Add to a status how far the stamps are apart, and the samples lost by it."""
         counters = self._aligner.counters
         paired, late = counters["pairs"] - self._pairs, counters["late"] - self._late
         self._pairs, self._late = counters["pairs"], counters["late"]
         if len(self._newest_ns) == len(FEET):
             status.values["right less left, newest stamps (s)"] = 1e-9 * self._right_less_left_ns()
-        if self._parted(paired):
-            status.note(ERROR, self._sentence(), "feet apart")
+        if self._is_apart(paired):
+            text = self._describe_gap()
+            status.note(Finding(FindingKind.STAMPS_APART, ERROR, text, logged=True))
         elif late > 0:
-            foot = max(FEET, key=self._behind_ns.__getitem__)
-            status.note(
-                WARN,
-                f"samples of the {foot} foot come too late: up to "
-                f"{1e-9 * self._behind_ns[foot]:.3f} s behind those of the {_other(foot)} foot "
-                f"where aligner.max_delay is {self._aligner.config.max_delay:g} s; {late} are "
-                "dropped",
-                "late samples",
-            )
+            text = self._describe_late(late)
+            status.note(Finding(FindingKind.LATE_SAMPLES, WARN, text, logged=True))
         self._behind_ns = dict.fromkeys(FEET, 0)
 
     def _right_less_left_ns(self) -> int:
         return self._newest_ns["right"] - self._newest_ns["left"]
 
-    def _parted(self, paired: int) -> bool:
-        """Tell whether both feet deliver and nothing is paired because their stamps differ."""
+    def _is_apart(self, paired: int) -> bool:
+        """Return whether both feet deliver and make no pair because their stamps differ."""
         now_s = time.monotonic()
         deliver = len(self._seen_s) == len(FEET) and (
             now_s - min(self._seen_s.values()) < DELIVERS_S
@@ -73,13 +66,21 @@ class Apart:
         apart = abs(self._right_less_left_ns()) > self._aligner.config.max_delay_ns
         return apart and now_s - self._unpaired_s >= UNPAIRED_S
 
-    def _sentence(self) -> str:
+    def _describe_gap(self) -> str:
         right_less_left_s = 1e-9 * self._right_less_left_ns()
         foot = "left" if right_less_left_s > 0.0 else "right"
         return (
             f"no pairs: the stamps of the {foot} foot are {abs(right_less_left_s):.1f} s behind "
             f"those of the {_other(foot)} foot, where aligner.max_delay is "
             f"{self._aligner.config.max_delay:g} s; {REMEDY.format(offset=-right_less_left_s)}"
+        )
+
+    def _describe_late(self, late: int) -> str:
+        foot = max(FEET, key=self._behind_ns.__getitem__)
+        return (
+            f"samples of the {foot} foot come too late: up to "
+            f"{1e-9 * self._behind_ns[foot]:.3f} s behind those of the {_other(foot)} foot "
+            f"where aligner.max_delay is {self._aligner.config.max_delay:g} s; {late} are dropped"
         )
 
 

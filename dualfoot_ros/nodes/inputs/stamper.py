@@ -1,13 +1,14 @@
-"""Stamps of samples by the policy of their foot, and what is known of the devices' clocks."""
+"""Stamps of samples by the policy of their foot, and the state of the devices' clocks."""
 
 from __future__ import annotations
 
 import threading
 
+from ...core import Refusal
 from ...timing import ClockModel, ClockState, Stamping, Stamps
-from ..ros.diagnostics import ERROR, WARN, Status
+from ..ros.status import ERROR, WARN, Finding, FindingKind, Status
 
-LARGEST_NS = (1 << 31) * 1_000_000_000  # what a stamp of ROS can hold
+LARGEST_NS = (1 << 31) * 1_000_000_000  # a stamp of ROS can hold no more
 LONG = 4.0  # times clock.settle
 IN_STEP = (
     "the offset of the {foot} foot's clock is known to {state.offset_std_s:.3f} s only: the "
@@ -17,69 +18,80 @@ IN_STEP = (
 
 
 class Stamper:
-    """Stamps the samples of the feet; may be asked and told from different threads.
+    """Stamps for the samples of the feet; may be used from different threads.
 
     ``counters`` holds ``settling`` (samples withheld at first, until the clock of their device is
-    known) and ``not_stamped``: samples whose clock says that they are not to be used, or whose
-    time no message can hold.
+    known) and ``not_stamped``: samples which their clock refuses, or whose time no message can
+    hold.
     """
 
     def __init__(self, stamping: Stamping, model: ClockModel) -> None:
-        self.counters = {"settling": 0, "not_stamped": 0}
+        self.counters: dict[str, int] = {Refusal.SETTLING: 0, Refusal.NOT_STAMPED: 0}
         self._stamps, self._model = Stamps(stamping, model), model
         self._reported = 0
         self._lock = threading.Lock()
 
     def stamp(self, foot: str, header_ns: int, arrival_ns: int) -> int | None:
-        """Return the stamp in ns of one sample; None: it is not to be used."""
+        """Return the stamp in ns of one sample; None when the sample is not to be used."""
         with self._lock:
-            found = self._stamps.stamp(foot, header_ns, arrival_ns)
-            if found is None and self._stamps.settling(foot):
-                self.counters["settling"] += 1
+            stamp_ns = self._stamps.stamp(foot, header_ns, arrival_ns)
+            if stamp_ns is None and self._stamps.settling(foot):
+                self.counters[Refusal.SETTLING] += 1
                 return None
-        if found is not None and not 0 <= found < LARGEST_NS:
-            found = None
-        self.counters["not_stamped"] += found is None
-        return found
+        if stamp_ns is not None and not 0 <= stamp_ns < LARGEST_NS:
+            stamp_ns = None
+        self.counters[Refusal.NOT_STAMPED] += stamp_ns is None
+        return stamp_ns
 
     @property
     def states(self) -> dict[str, ClockState]:
-        """What is known about the clock of every foot whose policy is ``device``."""
+        """State of the clock of every foot whose policy is ``device``."""
         with self._lock:
             return self._stamps.states
 
     def describe(self, status: Status) -> None:
-        """Put the clocks that are followed into a report."""
+        """Add the clocks that are followed, and the refused samples, to a status."""
         for foot, state in self.states.items():
             status.values |= clock_values(foot, state)
-            if state.phase == "refused":
-                status.note(ERROR, self._refusal(foot, state), f"clock {foot} refused")
-            elif state.phase == "settling":
-                status.note(WARN, self._settling(foot, state))
-            elif self._in_step(state):
-                status.note(WARN, IN_STEP.format(foot=foot, state=state), f"clock {foot} in step")
+            finding = self._check_clock(foot, state)
+            if finding is not None:
+                status.note(finding)
         status.values |= {f"clock {name}": n for name, n in self._stamps.counters.items()}
         status.values |= self.counters
-        if self.counters["not_stamped"] > self._reported:
-            status.note(WARN, "samples are refused: their stamps contradict the arrivals")
-        self._reported = self.counters["not_stamped"]
+        refused = self.counters[Refusal.NOT_STAMPED]
+        if refused > self._reported:
+            text = f"samples are refused: {Refusal.NOT_STAMPED.words}"
+            status.note(Finding(FindingKind.NOT_STAMPED, WARN, text))
+        self._reported = refused
 
-    def _in_step(self, state: ClockState) -> bool:
-        """Tell whether the waits for the events of a link hide the offset of a clock."""
+    def _check_clock(self, foot: str, state: ClockState) -> Finding | None:
+        if state.phase == "refused":
+            text = self._describe_refused(foot, state)
+            return Finding(FindingKind.CLOCK_REFUSED, ERROR, text, foot, logged=True)
+        if state.phase == "settling":
+            text = self._describe_settling(foot, state)
+            return Finding(FindingKind.CLOCK_SETTLING, WARN, text, foot)
+        if self._is_in_step(state):
+            text = IN_STEP.format(foot=foot, state=state)
+            return Finding(FindingKind.CLOCK_IN_STEP, WARN, text, foot, logged=True)
+        return None
+
+    def _is_in_step(self, state: ClockState) -> bool:
+        """Return whether the waits for the events of a link hide the offset of a clock."""
         unsure = state.offset_std_s > self._model.tracking_std
         return unsure and state.age_s > LONG * self._model.settle and state.interval_s > 0.0
 
-    def _refusal(self, foot: str, state: ClockState) -> str:
+    def _describe_refused(self, foot: str, state: ClockState) -> str:
         return (
             f"the clock of the {foot} foot is off by {state.skew_ppm:.0f} ppm; beyond "
             f"{self._model.max_skew:g} ppm it is not fused: check the unit of its stamps"
         )
 
-    def _settling(self, foot: str, state: ClockState) -> str:
-        said = f"the clock of the {foot} foot is being learnt: {state.age_s:.1f} s so far"
+    def _describe_settling(self, foot: str, state: ClockState) -> str:
+        text = f"the clock of the {foot} foot is being learnt: {state.age_s:.1f} s so far"
         if state.age_s > LONG * self._model.settle:
-            return f"{said}, too long: check the link and the unit of its stamps"
-        return f"{said}; its samples are withheld until it is known"
+            return f"{text}, too long: check the link and the unit of its stamps"
+        return f"{text}; its samples are withheld until it is known"
 
 
 def clock_values(foot: str, state: ClockState) -> dict[str, str | float | int]:

@@ -1,28 +1,41 @@
-"""Recognises samples that are not in SI units, and says so once."""
+"""Check of units: samples that are not in SI units are recognised and reported once."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 
+from ..ros.status import WARN, Finding, FindingKind, Status
+
 WINDOW = 100  # samples
 GRAVITY_IN_G = (0.7, 1.4)  # mean norm of specific force in g, of a foot that stands or walks
-LEAST_GRAVITY = 4.0  # m/s^2; a mean norm below this is no foot on Earth
+LEAST_GRAVITY = 4.0  # m/s^2; no foot on Earth has a smaller mean norm
 FASTEST = 35.0  # rad/s, 2000 deg/s: full scale of the sensors people put on their feet
-SUSPECT_SHARE = 0.05
+FAST_SHARE = 0.05
+FORCE, RATE = "specific_force", "angular_rate"
 
 
-class UnitSuspicion:
-    """Looks at windows of samples of one sensor; ``said`` holds what was found."""
+class UnitCheck:
+    """Check of one sensor's samples, window by window; ``findings`` has one a quantity at most.
 
-    def __init__(self, name: str, warn: Callable[[str], object]) -> None:
-        self.said: list[str] = []
-        self._name, self._warn = name, warn
+    A finding stays: the first one of a quantity is the one to act on.
+    """
+
+    def __init__(self, warn: Callable[[str], object], foot: str = "") -> None:
+        """Call ``warn`` with the text of each finding; name ``foot`` in it, where it is given."""
+        self._warn, self._foot = warn, foot
+        self._name = f"the {foot} foot" if foot else "this sensor"
+        self._found: dict[str, Finding] = {}
         self._norm = 0.0
         self._fast = 0
         self._count = 0
 
-    def look(self, values: list[float]) -> None:
+    @property
+    def findings(self) -> list[Finding]:
+        """The findings so far."""
+        return list(self._found.values())
+
+    def add(self, values: list[float]) -> None:
         """Take specific force and angular rate (6,) of one sample; not finite is ignored."""
         norm = math.hypot(*values[:3])
         rate = math.hypot(*values[3:])
@@ -32,28 +45,38 @@ class UnitSuspicion:
         self._fast += rate > FASTEST
         self._count += 1
         if self._count == WINDOW:
-            self._judge(self._norm / WINDOW, self._fast / WINDOW)
+            self._check_window(self._norm / WINDOW, self._fast / WINDOW)
             self._norm, self._fast, self._count = 0.0, 0, 0
 
-    def _judge(self, norm: float, fast_share: float) -> None:
+    def describe(self, status: Status) -> None:
+        """Add the findings to a status."""
+        for finding in self.findings:
+            status.note(finding)
+
+    def _check_window(self, norm: float, fast_share: float) -> None:
         if GRAVITY_IN_G[0] < norm < GRAVITY_IN_G[1]:
-            self._say(
+            self._report(
+                FORCE,
                 f"specific force of {self._name} has a mean norm of {norm:.2f}; it looks like g "
-                "where m/s^2 is expected: set units.specific_force of imu_adapter to g"
+                "where m/s^2 is expected: set units.specific_force of imu_adapter to g",
             )
         elif norm < LEAST_GRAVITY:
-            self._say(
+            self._report(
+                FORCE,
                 f"specific force of {self._name} has a mean norm of {norm:.2f} m/s^2 where "
-                "about 9.8 is due: gravity seems to be removed; the raw specific force is needed"
+                "about 9.8 is expected: gravity seems to be removed; the raw specific force is "
+                "needed",
             )
-        if fast_share > SUSPECT_SHARE:
-            self._say(
-                f"angular rate of {self._name} goes beyond {FASTEST:g} rad/s; it looks like deg/s "
-                "where rad/s is expected: set units.angular_rate of imu_adapter to deg/s"
+        if fast_share > FAST_SHARE:
+            self._report(
+                RATE,
+                f"angular rate of {self._name} exceeds {FASTEST:g} rad/s; it looks like deg/s "
+                "where rad/s is expected: set units.angular_rate of imu_adapter to deg/s",
             )
 
-    def _say(self, sentence: str) -> None:
-        topic = sentence.split(" of ")[0]
-        if not any(said.startswith(topic) for said in self.said):
-            self.said.append(sentence)
-            self._warn(sentence)
+    def _report(self, quantity: str, text: str) -> None:
+        if quantity in self._found:
+            return
+        about = f"{self._foot}/{quantity}"
+        self._found[quantity] = Finding(FindingKind.WRONG_UNIT, WARN, text, about)
+        self._warn(text)

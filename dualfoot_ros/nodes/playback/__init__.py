@@ -1,1 +1,1 @@
-"""Playing bags into topics, and recording topics."""
+"""Playback of recordings into topics, and recording of topics."""

@@ -1,4 +1,4 @@
-"""Plays recorded samples from a thread of its own, in time or as fast as the listeners follow."""
+"""Player of recorded samples: in time, or as fast as the listeners follow."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core import FEET, FieldSeries, FloatArray, ImuSeries, PressureSeries
-from ...settings import Play
+from ...settings import PlayConfig
 
 Series = ImuSeries | PressureSeries | FieldSeries
 GATE_POLL = 0.0005  # s
 READY_POLL = 0.01  # s
 DISCOVERY_S = 0.5  # a subscriber that is there may take 0.1 s more to find the publisher
-LONGEST_NAP = 0.1  # s, so that a stop is obeyed soon
+LONGEST_NAP = 0.1  # s, so that a stop takes effect soon
 
 
 class Sample(NamedTuple):
     """One recorded sample; ``due_ns`` is when it was recorded, never earlier than those before.
 
-    ``foot`` is "left" or "right", or the topic of a sensor that is none of the feet's own.
+    ``foot`` is "left" or "right", or the topic of a sensor that is not on one foot.
     """
 
     due_ns: int
@@ -33,7 +33,7 @@ class Sample(NamedTuple):
 
 def in_order(series: Mapping[str, Series]) -> Iterator[Sample]:
     """Yield the samples of all sensors in the order in which they were recorded."""
-    tables = {foot: _table(each) for foot, each in series.items() if len(each)}
+    tables = {foot: _to_table(samples) for foot, samples in series.items() if len(samples)}
     due = {f: np.maximum.accumulate(series[f].stamp_ns).tolist() for f in tables}
     feet = sorted(tables, key=lambda foot: (foot not in FEET, foot))
     keys = np.concatenate([np.asarray(due[foot]) for foot in feet])
@@ -45,11 +45,11 @@ def in_order(series: Mapping[str, Series]) -> Iterator[Sample]:
 
 
 class Player:
-    """Hands every sample to ``publish`` when it is due.
+    """Thread that hands every sample to ``publish`` when it is due.
 
-    ``alive`` tells whether ROS is still there to publish with (a signal can end it at any time),
-    ``ready`` is asked before the first sample, ``gate`` before every one; with a gate the speed
-    is that of whoever opens it, and ``play.rate`` has no meaning.  ``finished`` is called once at
+    ``alive`` returns whether ROS can still publish (a signal can end it at any time), ``ready``
+    whether the first sample may be played and ``gate`` whether the next one may: with a gate the
+    speed is that of its owner, and ``play.rate`` has no meaning.  ``finished`` is called once at
     the end, from the thread, unless the player was stopped.
     """
 
@@ -57,7 +57,7 @@ class Player:
         self,
         samples: Callable[[], Iterator[Sample]],
         publish: Callable[[Sample], None],
-        play: Play,
+        play: PlayConfig,
         *,
         alive: Callable[[], bool] = lambda: True,
         ready: Callable[[], bool] = lambda: True,
@@ -122,7 +122,7 @@ class Player:
                 return
 
 
-def wait_to_begin(play: Play, ready: Callable[[], bool], stop: threading.Event) -> None:
+def wait_to_begin(play: PlayConfig, ready: Callable[[], bool], stop: threading.Event) -> None:
     """Wait until ``ready``, ``play.wait`` at most, and then ``play.delay``; not when stopped."""
     until = time.monotonic() + play.wait
     while not ready():
@@ -133,7 +133,7 @@ def wait_to_begin(play: Play, ready: Callable[[], bool], stop: threading.Event) 
     stop.wait(play.delay)
 
 
-def _table(series: Series) -> FloatArray:
+def _to_table(series: Series) -> FloatArray:
     if isinstance(series, FieldSeries):
         return series.tesla
     if isinstance(series, PressureSeries):

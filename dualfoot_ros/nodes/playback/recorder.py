@@ -1,4 +1,4 @@
-"""Writes topics to a bag while they are published: whole or not at all."""
+"""Recorder of topics to a bag, which is written whole or not at all."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ...recording import METADATA, check_target, new_directory
 
 
 class RecorderNode(Node):
-    """Records topics as they come, in MCAP, logged at the time of the node's clock."""
+    """Node that records topics as they come, in MCAP, at the time of its clock."""
 
     def __init__(
         self, path: Path, topics: dict[str, tuple[Any, QoSProfile]], **options: Any

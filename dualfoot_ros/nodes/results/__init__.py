@@ -1,1 +1,1 @@
-"""What the fusion node publishes."""
+"""Messages and reports of the node ``fusion``."""

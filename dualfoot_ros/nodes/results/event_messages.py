@@ -10,31 +10,31 @@ import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from ...core import Details, Event, EventKind, YawTurn
-from ..ros.diagnostics import OK, WARN
 from ..ros.messages import set_time
+from ..ros.status import OK, WARN
 
 
 def to_message(events: tuple[Event, ...], stamp_ns: int) -> DiagnosticArray:
     """Return the events of one epoch; numbers are written so that they are read back exactly."""
     message = DiagnosticArray()
     set_time(message.header.stamp, stamp_ns)
-    message.status = [_status(event) for event in events]
+    message.status = [_to_status(event) for event in events]
     return message
 
 
 def from_message(message: DiagnosticArray) -> list[Event]:
     """Return the events of a message made by :func:`to_message`."""
-    return [_event(status) for status in message.status]
+    return [_to_event(status) for status in message.status]
 
 
-def words(event: Event) -> str:
-    """Say what happened in a few words."""
-    detail = ", ".join(f"{key} {_short(value)}" for key, value in event.detail.items())
+def summarise(event: Event) -> str:
+    """Return in a few words what happened."""
+    detail = ", ".join(f"{key} {_format(value)}" for key, value in event.detail.items())
     refused = "" if event.accepted else " (refused)"
     return f"{event.kind.value} of {event.foot}{refused}" + (f": {detail}" if detail else "")
 
 
-def _status(event: Event) -> DiagnosticStatus:
+def _to_status(event: Event) -> DiagnosticStatus:
     values = {
         "stamp_ns": event.stamp_ns,
         "detected_ns": event.detected_ns,
@@ -42,19 +42,19 @@ def _status(event: Event) -> DiagnosticStatus:
         "S": event.S.tolist(),
         "nis": event.nis,
         "accepted": event.accepted,
-        "detail": _plain(event.detail),
+        "detail": _to_plain(event.detail),
     }
     return DiagnosticStatus(
         level=OK if event.accepted else WARN,
         name=event.kind.value,
         hardware_id=event.foot,
-        message=words(event),
+        message=summarise(event),
         values=[KeyValue(key=key, value=json.dumps(value)) for key, value in values.items()],
     )
 
 
-def _event(status: DiagnosticStatus) -> Event:
-    values = {each.key: json.loads(each.value) for each in status.values}
+def _to_event(status: DiagnosticStatus) -> Event:
+    values = {pair.key: json.loads(pair.value) for pair in status.values}
     kind, detail = EventKind(status.name), values["detail"]
     turn = kind is EventKind.HEADING
     return Event(
@@ -70,20 +70,20 @@ def _event(status: DiagnosticStatus) -> Event:
     )
 
 
-def _plain(value: Any) -> Any:
+def _to_plain(value: Any) -> Any:
     """Return ``value`` with numpy's types turned into Python's."""
     if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
+        return {str(key): _to_plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
+        return [_to_plain(item) for item in value]
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
     return value
 
 
-def _short(value: Any) -> str:
+def _format(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.4g}"
     if isinstance(value, (list, tuple, np.ndarray)):
-        return "(" + ", ".join(_short(float(v)) for v in value) + ")"
+        return "(" + ", ".join(_format(float(v)) for v in value) + ")"
     return str(value)

@@ -1,4 +1,4 @@
-"""The path of one foot: one pose a stance and the newest, turned when the heading is."""
+"""Path of one foot: one pose a stance and the newest, turned when the heading is."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class _Pose(NamedTuple):
 
 
 class FootPath:
-    """Collects the poses of a foot; ``message`` is what to publish.
+    """Poses of a foot, of which :meth:`message` makes a path.
 
     ``length`` is the number of poses kept, ``period_s`` the least time between two messages.
     """
@@ -43,15 +43,15 @@ class FootPath:
         self._due_ns = 0
 
     def add(self, stamp_ns: int, estimate: FootEstimate, events: tuple[Event, ...]) -> None:
-        """Take the estimate of one epoch and what happened at it."""
+        """Take the estimate and the events of one epoch."""
         for event in events:
             if event.foot == self._foot:
-                self._happened(event)
+                self._add_event(event)
         self._newest = _Pose(stamp_ns, estimate.position.copy(), estimate.quaternion.copy())
         if estimate.stance:
             self._standing = self._newest
 
-    def _happened(self, event: Event) -> None:
+    def _add_event(self, event: Event) -> None:
         if event.kind is EventKind.HEADING:
             turned = [pose.turned(event) for pose in self._stances]
             self._stances.clear()
@@ -62,7 +62,7 @@ class FootPath:
             self._standing = None
 
     def due(self, stamp_ns: int) -> bool:
-        """Return whether it is time for a message, at most once in the period."""
+        """Return whether a message is due, at most once in the period."""
         if stamp_ns < self._due_ns:
             return False
         self._due_ns = stamp_ns + self._period_ns

@@ -1,30 +1,45 @@
-"""How fusion is doing: what its diagnostics and its log say."""
+"""Report of the node ``fusion``: its diagnostics, and what it logs of the walk."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
 
 import numpy as np
+from rclpy.clock import Clock
+from rclpy.impl.rcutils_logger import RcutilsLogger
 
-from ...core import FEET, Event, EventKind, Update
-from ..ros.diagnostics import WARN, Rates, Status
-from . import event_messages as events
-
-if TYPE_CHECKING:
-    from ..fusion import FusionNode
+from ...core import FEET, DualFootTracker, Event, EventKind, Refusal, Update, refusal_of
+from ...timing import Aligner
+from ..ros.diagnostics import Rates
+from ..ros.status import WARN, Described, Finding, FindingKind, Status
+from . import event_messages
 
 LOGGED = (EventKind.ALIGNED, EventKind.HEADING, EventKind.RESET)
 NO_STANCE_NS = 5_000_000_000
 NIS_MEMORY = 0.99  # of the running mean, a ZUPT of 3 dimensions
 
 
-class Health:
-    """Watches the updates of a fusion node and tells about them."""
+class FusionReport:
+    """Report on the updates of a tracker, and on the parts that feed it."""
 
-    def __init__(self, node: FusionNode, sync: str) -> None:
-        self._node, self._external = node, sync == "external"
-        self._rates = Rates()
-        self._seen: dict[str, int] = {}
+    def __init__(
+        self,
+        tracker: DualFootTracker,
+        aligner: Aligner,
+        parts: Sequence[Described],
+        clock: Clock,
+        logger: RcutilsLogger,
+        *,
+        external: bool,
+    ) -> None:
+        """Report on ``tracker`` and ``aligner``, and whatever the ``parts`` describe.
+
+        ``external`` says that another node makes the pairs, so that nothing is to be interpolated.
+        """
+        self._tracker, self._aligner, self._parts = tracker, aligner, parts
+        self._clock, self._logger, self._external = clock, logger, external
+        self._aligner_rates, self._tracker_rates = Rates(), Rates()
+        self._logged: set[Refusal] = set()
         self._nis = float("nan")
         self._correction_m = 0.0
         self._phase = "aligning"
@@ -35,15 +50,15 @@ class Health:
     def add(self, update: Update) -> None:
         """Take one update."""
         if update.refused is not None:
-            self._say_refusal(update.refused)
+            self._log_refusal(Refusal(update.refused))
         for event in update.announced:
-            self._happened(event)
+            self._add_event(event)
         self._phase, self._stamp_ns = update.phase, update.stamp_ns
         zupts = {e.foot: e.nis for e in update.events if e.kind is EventKind.ZUPT}
         for foot in FEET:
-            self._look_at(foot, update, zupts.get(foot))
+            self._add_stance(foot, update, zupts.get(foot))
 
-    def _look_at(self, foot: str, update: Update, nis: float | None) -> None:
+    def _add_stance(self, foot: str, update: Update, nis: float | None) -> None:
         self._stance[foot] = nis is not None
         standing = nis is not None or update.phase != "walking"
         if standing or update.stamp_ns < self._last_stance_ns[foot]:
@@ -53,33 +68,30 @@ class Health:
             first = not np.isfinite(self._nis)
             self._nis = ratio if first else NIS_MEMORY * self._nis + (1 - NIS_MEMORY) * ratio
 
-    def _say_refusal(self, name: str) -> None:
-        self._seen[name] = self._seen.get(name, 0) + 1
-        if self._seen[name] == 1:
-            self._node.get_logger().warning(
-                f"pairs are refused: {name} (from now on only counted, see /diagnostics)"
+    def _log_refusal(self, reason: Refusal) -> None:
+        if reason not in self._logged:
+            self._logged.add(reason)
+            self._logger.warning(
+                f"pairs are refused: {reason.words} (further ones are only counted, as "
+                f"'tracker {reason}' in /diagnostics)"
             )
 
-    def _happened(self, event: Event) -> None:
+    def _add_event(self, event: Event) -> None:
         if event.kind in LOGGED:
-            self._node.get_logger().info(events.words(event))
+            self._logger.info(event_messages.summarise(event))
         if event.kind is EventKind.CONSTRAINT and event.accepted and len(event.innovation):
             self._correction_m = float(np.linalg.norm(event.innovation))
 
     def collect(self, status: Status) -> None:
-        """Fill in a report."""
-        self._node.watch.describe(status)
-        self._node.stamper.describe(status)
-        self._node.apart.describe(status)
-        for suspicion in self._node.suspicions.values():
-            for sentence in suspicion.said:
-                status.note(WARN, sentence)
-        self._describe_state(status)
+        """Fill in a status."""
+        for part in self._parts:
+            part.describe(status)
+        self._describe_tracker(status)
+        self._describe_stances(status)
         self._describe_counters(status)
 
-    def _describe_state(self, status: Status) -> None:
-        tracker = self._node.tracker
-        now_ns = self._node.get_clock().now().nanoseconds
+    def _describe_tracker(self, status: Status) -> None:
+        tracker, now_ns = self._tracker, self._clock.now().nanoseconds
         status.values |= {
             "method": tracker.config.method,
             "phase": self._phase,
@@ -88,39 +100,50 @@ class Health:
             "NIS ratio of ZUPT": self._nis,
             "last constraint innovation (m)": self._correction_m,
         }
-        status.values |= {f"{foot} stance": self._stance[foot] for foot in FEET}
         if tracker.spacing is not None:
             spacing, std = tracker.spacing
             status.values |= {"spacing of the feet (m)": spacing, "spacing std (m)": std}
         if tracker.phase == "aligning" and tracker.complaint:
-            status.note(WARN, f"aligning: stand still ({tracker.complaint})")
+            text = f"aligning: stand still ({tracker.complaint})"
+            status.note(Finding(FindingKind.ALIGNING, WARN, text))
+
+    def _describe_stances(self, status: Status) -> None:
         for foot in FEET:
+            status.values[f"{foot} stance"] = self._stance[foot]
             if self._stamp_ns - self._last_stance_ns[foot] > NO_STANCE_NS:
-                status.note(
-                    WARN,
-                    f"no stance of the {foot} foot for 5 s of walking: check stance.threshold",
-                )
+                text = f"no stance of the {foot} foot for 5 s of walking: check stance.threshold"
+                status.note(Finding(FindingKind.NO_STANCE, WARN, text, foot))
 
     def _describe_counters(self, status: Status) -> None:
-        aligner, tracker = self._node.aligner.counters, dict(self._node.tracker.counters)
-        rates = self._rates.since_last(
-            {f"aligner {k}": n for k, n in aligner.items()}
-            | {f"tracker {k}": n for k, n in tracker.items()}
-        )
-        status.values["pair rate (Hz)"] = rates["aligner pairs"]
-        status.values |= {f"aligner {name}": n for name, n in aligner.items()}
-        status.values |= {f"tracker {name}": n for name, n in tracker.items()}
-        bad = [name for name, rate in rates.items() if rate > 0 and _is_refusal(name)]
-        if bad:
-            status.note(WARN, f"samples are refused: {', '.join(bad)}")
-        if rates.get("tracker stances_without_pressure", 0.0) > 0:
-            status.note(WARN, "stances go without air pressure: check its clock and rate")
-        if rates.get("tracker stances_without_field", 0.0) > 0:
-            status.note(WARN, "stances go without a magnetic field: check its stamps and rate")
-        if self._external and rates["aligner interpolated"] > 0:
-            status.note(WARN, "the streams do not share their stamps; use sync: internal")
+        aligned, tracked = self._aligner.counters, dict(self._tracker.counters)
+        paired = self._aligner_rates.since_last(aligned)
+        rates = self._tracker_rates.since_last(tracked)
+        status.values["pair rate (Hz)"] = paired["pairs"]
+        status.values |= {f"aligner {name}": n for name, n in aligned.items()}
+        status.values |= {f"tracker {name}": n for name, n in tracked.items()}
+        refused = [
+            *(f"{words} (aligner {name})" for name, words in _select_warned(paired).items()),
+            *(f"{words} (tracker {name})" for name, words in _select_warned(rates).items()),
+        ]
+        if refused:
+            text = f"samples are refused: {', '.join(refused)}"
+            status.note(Finding(FindingKind.REFUSED_SAMPLES, WARN, text))
+        if rates.get(Refusal.STANCES_WITHOUT_PRESSURE, 0.0) > 0:
+            text = "stances have no air pressure: check its clock and rate"
+            status.note(Finding(FindingKind.NO_PRESSURE, WARN, text))
+        if rates.get(Refusal.STANCES_WITHOUT_FIELD, 0.0) > 0:
+            text = "stances have no magnetic field: check its stamps and rate"
+            status.note(Finding(FindingKind.NO_FIELD, WARN, text))
+        if self._external and paired["interpolated"] > 0:
+            text = "the streams do not share their stamps; use sync: internal"
+            status.note(Finding(FindingKind.STAMPS_NOT_SHARED, WARN, text))
 
 
-def _is_refusal(name: str) -> bool:
-    words = ("not_finite", "out_of_range", "out_of_order", "far_ahead")
-    return name.endswith(words)
+def _select_warned(rates: Mapping[str, float]) -> dict[str, str]:
+    """Return the words of the refusals that go on and need a warning, by their counters."""
+    reasons = {name: refusal_of(name) for name, rate in rates.items() if rate > 0}
+    return {
+        name: reason[0].words
+        for name, reason in reasons.items()
+        if reason is not None and reason[0].needs_warning
+    }

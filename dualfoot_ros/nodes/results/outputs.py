@@ -1,4 +1,4 @@
-"""What fusion publishes of one update: odometry of feet and person, paths, events, frames."""
+"""Outputs of fusion for one update: odometry of feet and person, paths, events, frames."""
 
 from __future__ import annotations
 
@@ -12,21 +12,20 @@ from nav_msgs.msg import Path as PathMessage
 from rclpy.node import Node
 
 from ...core import FEET, ConfigError, EventKind, Update
-from ...settings import Frames
-from ...settings import Path as PathOptions
+from ...settings import FrameConfig, PathConfig
 from ..ros import qos
 from ..ros.messages import fill_foot, fill_pedestrian, new_odometry
-from . import event_messages as events
+from . import event_messages
 from .foot_path import FootPath
 
 EVENTS_KEPT = 200
 
 
 class Outputs:
-    """Publishers of the node ``fusion``, and the messages they fill again and again."""
+    """Publishers of the node ``fusion``, and the messages that are filled for every update."""
 
     def __init__(
-        self, node: Node, frames: Frames, path: PathOptions, gyro_density: float, tf: bool
+        self, node: Node, frames: FrameConfig, path: PathConfig, gyro_density: float, tf: bool
     ) -> None:
         """``gyro_density`` (rad/s/sqrt(Hz)) gives the noise of the published angular rate."""
         children = {"left": frames.left, "right": frames.right}
@@ -38,7 +37,7 @@ class Outputs:
         }
         self._pedestrian = node.create_publisher(Odometry, "odometry", qos.result())
         self._paths = {f: FootPath(f, frames.odom, path.length, path.period) for f in FEET}
-        self._path = {
+        self._path_publishers = {
             f: node.create_publisher(PathMessage, f"{f}/path", qos.latched()) for f in FEET
         }
         self._events = node.create_publisher(DiagnosticArray, "~/events", qos.latched(EVENTS_KEPT))
@@ -47,9 +46,9 @@ class Outputs:
         self.published = 0
 
     def publish(self, update: Update) -> None:
-        """Publish everything that ``update`` brings."""
+        """Publish the estimates and events of ``update``."""
         if update.announced:
-            self._events.publish(events.to_message(update.announced, update.stamp_ns))
+            self._events.publish(event_messages.to_message(update.announced, update.stamp_ns))
             if any(event.kind is EventKind.RESET for event in update.announced):
                 self.clear()
         person = update.pedestrian()
@@ -72,10 +71,10 @@ class Outputs:
         self._odometry[foot].publish(message)
         path.add(stamp_ns, estimate, update.announced)
         if path.due(stamp_ns):
-            self._path[foot].publish(path.message())
+            self._path_publishers[foot].publish(path.message())
 
     def clear(self) -> None:
-        """Begin the paths anew."""
+        """Clear the paths."""
         for path in self._paths.values():
             path.clear()
 
@@ -87,7 +86,7 @@ class Outputs:
 
 
 class FrameBroadcaster:
-    """Sends frames on /tf; needs tf2_msgs, which not every installation has.
+    """Publisher of frames on /tf; needs tf2_msgs, which not every installation has.
 
     Raises
     ------
@@ -108,13 +107,15 @@ class FrameBroadcaster:
 
     def publish(self, odometry: Sequence[Odometry]) -> None:
         """Send the pose of each message as a frame."""
-        self._publisher.publish(self._new(transforms=[_transform(each) for each in odometry]))
+        self._publisher.publish(
+            self._new(transforms=[_to_transform(message) for message in odometry])
+        )
 
 
-def _transform(odometry: Odometry) -> TransformStamped:
-    found = TransformStamped(header=odometry.header, child_frame_id=odometry.child_frame_id)
+def _to_transform(odometry: Odometry) -> TransformStamped:
+    transform = TransformStamped(header=odometry.header, child_frame_id=odometry.child_frame_id)
     position = odometry.pose.pose.position
-    translation = found.transform.translation
+    translation = transform.transform.translation
     translation.x, translation.y, translation.z = position.x, position.y, position.z
-    found.transform.rotation = odometry.pose.pose.orientation
-    return found
+    transform.transform.rotation = odometry.pose.pose.orientation
+    return transform

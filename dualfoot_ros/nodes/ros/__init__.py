@@ -1,1 +1,1 @@
-"""What all nodes share of ROS: parameters, QoS, messages, diagnostics, start and end."""
+"""Parts of ROS that all nodes share: parameters, QoS, messages, diagnostics, start and end."""

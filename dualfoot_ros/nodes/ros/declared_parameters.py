@@ -1,4 +1,4 @@
-"""ROS parameters from the declared ones: types, ranges, descriptions, and what was misspelt."""
+"""Declaration of ROS parameters: types, ranges, descriptions, and warnings of misspelt names."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ OF_RCLPY = ("use_sim_time", "start_type_description_service")
 def declare(node: Node, specs: Iterable[ParameterSpec]) -> dict[str, Any]:
     """Declare parameters on ``node``, read-only, and return the values they have been given.
 
-    A whole number is taken for a real one.  Overrides that no node of the package knows are
-    warned about; the effective configuration is logged once.
+    A whole number is accepted for a real one.  Overrides that no node of the package knows are
+    warned of; the effective configuration is logged once.
 
     Raises
     ------
@@ -40,7 +40,7 @@ def declare(node: Node, specs: Iterable[ParameterSpec]) -> dict[str, Any]:
         values[spec.name] = value
     for name in given:
         _warn_if_unknown(node, name, values)
-    node.get_logger().info("configuration: " + _words(values))
+    node.get_logger().info("configuration: " + _format(values))
     return values
 
 
@@ -51,23 +51,23 @@ def group(cls: type[Group], values: Mapping[str, Any], prefix: str = "") -> Grou
 
 def descriptor(spec: ParameterSpec) -> ParameterDescriptor:
     """Return description, range and constraint of a parameter as ROS shows them."""
-    found = ParameterDescriptor(
+    described = ParameterDescriptor(
         name=spec.name,
         description=spec.description,
         additional_constraints=spec.allowed,
         read_only=True,
     )
     if spec.minimum is None or spec.maximum is None:
-        return found
+        return described
     if spec.type is float:
-        found.floating_point_range = [
+        described.floating_point_range = [
             FloatingPointRange(from_value=float(spec.minimum), to_value=float(spec.maximum))
         ]
     elif spec.type is int:
-        found.integer_range = [
+        described.integer_range = [
             IntegerRange(from_value=int(spec.minimum), to_value=int(spec.maximum), step=1)
         ]
-    return found
+    return described
 
 
 def _warn_if_unknown(node: Node, name: str, own: Mapping[str, Any]) -> None:
@@ -79,8 +79,8 @@ def _warn_if_unknown(node: Node, name: str, own: Mapping[str, Any]) -> None:
     node.get_logger().warning(f"parameter '{name}' is not known and has no effect{hint}")
 
 
-def _words(values: Mapping[str, Any]) -> str:
-    """Return the values in words, without those of methods that are not in use."""
+def _format(values: Mapping[str, Any]) -> str:
+    """Return the values as text, without those of methods that are not in use."""
     idle = set(METHODS) - {values.get("method"), *GROUPS}
     shown = {name: v for name, v in values.items() if name.partition(".")[0] not in idle}
     return ", ".join(f"{name}={value}" for name, value in shown.items())

@@ -1,4 +1,4 @@
-"""Messages to arrays and back; the only place that knows their fields."""
+"""Conversion of messages to arrays and back."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def pose_of(pose: Pose) -> tuple[FloatArray, FloatArray]:
 
 
 def pose_yaw(pose: Pose) -> tuple[FloatArray, float] | None:
-    """Return position (3,) m and yaw (rad) of ``pose``, or None when they are no numbers."""
+    """Return position (3,) m and yaw (rad) of ``pose``, or None when they are not finite."""
     position, quaternion = pose_of(pose)
     norm = float(np.linalg.norm(quaternion))
     if not (np.isfinite(position).all() and 1e-6 < norm < math.inf):

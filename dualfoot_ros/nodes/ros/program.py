@@ -28,7 +28,7 @@ STOPPED = (KeyboardInterrupt, ExternalShutdownException)
 
 @dataclass(frozen=True)
 class Program:
-    """What ``--help`` says about an executable."""
+    """An executable: its name, and what ``--help`` prints."""
 
     name: str
     summary: str
@@ -36,7 +36,7 @@ class Program:
     specs: Sequence[ParameterSpec] = ()
 
     def check_arguments(self, argv: Sequence[str]) -> None:
-        """Answer --help and refuse arguments that ROS does not take away, or cannot read."""
+        """Answer --help; refuse arguments that ROS does not use or cannot read."""
         parser = argparse.ArgumentParser(
             prog=self.name,
             description=self.summary,
@@ -58,7 +58,7 @@ class Program:
 
 @dataclass(frozen=True)
 class Graph:
-    """Nodes of one process; the program ends when ``done`` is (never, when it is None)."""
+    """Nodes of one process; the program ends with ``done``, or never when that is None."""
 
     nodes: Sequence[Node]
     done: Future | None = None
@@ -86,15 +86,15 @@ def run_nodes(
 
 @contextmanager
 def started(argv: Sequence[str]) -> Iterator[None]:
-    """Have the default context of rclpy for the block; always shut it down.
+    """Start the default context of rclpy for the block; always shut it down.
 
     Raises
     ------
     DualFootError
         When ROS cannot read its arguments or parameter files.
     """
-    # rclpy ends the context at SIGINT; a KeyboardInterrupt besides could strike anywhere, even in
-    # a callback of the import machinery, which can only print it.
+    # rclpy ends the context at SIGINT; a KeyboardInterrupt as well could come anywhere, even in a
+    # callback of the import machinery, which can only print it.
     signal.signal(signal.SIGINT, lambda *_: None)
     with _ros_arguments():
         rclpy.init(args=["", *argv])
@@ -112,7 +112,7 @@ def started(argv: Sequence[str]) -> Iterator[None]:
 
 @contextmanager
 def _ros_arguments() -> Iterator[None]:
-    """Turn what rcl says about arguments and parameter files into one sentence."""
+    """Turn the errors of rcl about arguments and parameter files into one sentence."""
     try:
         yield
     except Exception as error:  # the classes of rcl's errors have no public name
@@ -121,7 +121,7 @@ def _ros_arguments() -> Iterator[None]:
 
 
 def in_one_line(error: Exception) -> str:
-    """Return what rcl says, without line breaks and without where in its source it says so."""
+    """Return the message of rcl, without line breaks and without the place in its source."""
     return SOURCE_LINE.sub("", " ".join(str(error).split()))
 
 
@@ -141,10 +141,10 @@ def _spin(graph: Graph) -> None:
 
 
 def _spin_until(done: Future, executor: SingleThreadedExecutor) -> None:
-    """Spin until ``done`` is, and raise what ended it, if that was an error.
+    """Spin until ``done`` is done; raise the error that ended it, if there was one.
 
     The executor's own method for this leaves something on the future for every callback that it
-    executes, so a process that lives for days would grow and grow.
+    executes, so the memory of a process that runs for days would grow without bound.
     """
     done.add_done_callback(lambda _: executor.create_task(lambda: None))  # wakes it
     while executor.context.ok() and not done.done():
@@ -154,13 +154,13 @@ def _spin_until(done: Future, executor: SingleThreadedExecutor) -> None:
 
 
 def destroy(nodes: Iterable[Node]) -> None:
-    """Destroy nodes, those first that were made last."""
+    """Destroy nodes, in the reverse order of their making."""
     for node in reversed(list(nodes)):
         node.destroy_node()
 
 
 def _ignore_signals() -> None:
-    """A terminal can deliver SIGINT twice; the second must not interrupt the shutdown."""
+    """Ignore signals: a terminal can send SIGINT twice, and the second must not interrupt."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
 

@@ -6,17 +6,17 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 
 
 def sensor(depth: int) -> QoSProfile:
-    """Return the profile of raw samples: best effort, but deep enough to outlast a stall."""
+    """Return the profile of raw samples: best effort, and deep enough to outlast a stall."""
     return _profile(depth, ReliabilityPolicy.BEST_EFFORT)
 
 
 def result(depth: int = 200) -> QoSProfile:
-    """Return the profile of what is estimated: reliable."""
+    """Return the profile of estimates: reliable."""
     return _profile(depth, ReliabilityPolicy.RELIABLE)
 
 
 def latched(depth: int = 1) -> QoSProfile:
-    """Return the profile of what a late subscriber wants too: reliable, transient local."""
+    """Return the profile for late subscribers too: reliable, transient local."""
     return _profile(depth, ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL)
 
 

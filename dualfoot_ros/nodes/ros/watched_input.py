@@ -1,58 +1,43 @@
-"""Says within seconds, and by name, why an input is silent."""
+"""Inputs that know why they are silent, and the monitor that says so within seconds."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 from rclpy.clock import Clock, ClockType
-from rclpy.event_handler import (
-    PublisherEventCallbacks,
-    SubscriptionEventCallbacks,
-    UnsupportedEventTypeError,
-)
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
-from rclpy.publisher import Publisher
-from rclpy.qos import (
-    QoSCompatibility,
-    QoSProfile,
-    qos_check_compatible,
-    qos_policy_name_from_kind,
-)
+from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
 
-from ...settings import Input as InputOptions
-from .diagnostics import ERROR, WARN, Status
+from ...settings import InputConfig
+from .status import ERROR, WARN, Finding, FindingKind, Key, Status
 
 LOOK_EVERY = 0.25  # s
 
 
-class Complaint(NamedTuple):
-    """Why nothing comes, and how bad that is."""
-
-    level: bytes
-    message: str
-
-
-def silence(who: str, begun: bool, silent_s: float, options: InputOptions) -> Complaint:
-    """Return what to say of an input that could deliver and does not.
+def silence(who: str, begun: bool, silent_s: float, config: InputConfig) -> Finding:
+    """Return the finding about an input that could deliver and does not.
 
     One that has not begun is given time: samples are withheld while a clock is learnt.
     """
     if begun:
-        return Complaint(ERROR, f"{who} but was silent for {silent_s:.1f} s")
-    if silent_s < options.first:
-        return Complaint(WARN, f"{who} but no sample yet")
-    return Complaint(ERROR, f"{who} but no sample came for {silent_s:.1f} s")
+        text = f"{who} but was silent for {silent_s:.1f} s"
+        return Finding(FindingKind.SILENT, ERROR, text)
+    if silent_s < config.first:
+        return Finding(FindingKind.NOT_BEGUN, WARN, f"{who} but no sample yet")
+    text = f"{who} but no sample came for {silent_s:.1f} s"
+    return Finding(FindingKind.BEGINS_LATE, ERROR, text)
 
 
-class Input:
+class WatchedInput:
     """A subscription that counts what arrives and what was lost, and knows why nothing comes.
 
     ``lost`` counts the holes in the publisher's own numbering, which no queue hides.
     ``arrival_ns`` is when the newest message came from the network, whatever time it then spent
-    in the queue; with ``use_sim_time`` it is the simulated time at which it is looked at.
-    ``hint`` is added where a publisher is there and silent.
+    in the queue; with ``use_sim_time`` it is the simulated time at which it is taken out.
+    ``hint`` is added to the text where a publisher is there and silent.
     """
 
     def __init__(
@@ -71,7 +56,8 @@ class Input:
         self.last_s = self._free_s = time.monotonic()
         self._node, self._callback, self._profile, self._hint = node, callback, profile, hint
         self._type_name = _type_name(message_type)
-        silent = SubscriptionEventCallbacks(use_default_callbacks=False)  # `_fault` says it all
+        # rclpy's own warning of an incompatible QoS is left out: `_find_fault` says more.
+        silent = SubscriptionEventCallbacks(use_default_callbacks=False)
         self._subscription = node.create_subscription(
             message_type, topic, self._receive, profile, event_callbacks=silent
         )
@@ -84,7 +70,7 @@ class Input:
     def _receive(self, message: Any, info: dict[str, Any]) -> None:
         self.received += 1
         self.last_s = time.monotonic()
-        self.arrival_ns = self._arrival_ns(info)
+        self.arrival_ns = self._read_arrival(info)
         number = info.get("publication_sequence_number")
         if number is not None:
             if self._number is not None and number > self._number:
@@ -92,52 +78,54 @@ class Input:
             self._number = number
         self._callback(message)
 
-    def _arrival_ns(self, info: dict[str, Any]) -> int:
+    def _read_arrival(self, info: dict[str, Any]) -> int:
         received_ns = int(info.get("received_timestamp") or 0)
         clock = self._node.get_clock()
         if received_ns <= 0 or clock.ros_time_is_active:
             return int(clock.now().nanoseconds)
         return received_ns
 
-    def complaint(self, options: InputOptions) -> Complaint | None:
-        """Return why nothing came for ``options.silence``, or None when something did."""
+    def complaint(self, config: InputConfig) -> Finding | None:
+        """Return why nothing came for ``config.silence``, or None when something did."""
         now_s = time.monotonic()
-        if now_s - self.last_s < options.silence:
+        if now_s - self.last_s < config.silence:
             return None
-        fault = self._fault()
+        fault = self._find_fault()
         if fault is not None:
             self._free_s = now_s  # a first message is waited for from here on only
-            return Complaint(ERROR, fault)
+            return fault
         begun = self.received > 0
         since_s = self.last_s if begun else self._free_s
         count = self._node.count_publishers(self.topic)
         who = f"topic '{self.topic}' has {count} publisher(s)"
-        level, message = silence(who, begun, now_s - since_s, options)
-        return Complaint(level, message + self._hint)
+        finding = silence(who, begun, now_s - since_s, config)
+        return Finding(finding.kind, finding.level, finding.text + self._hint, self.topic)
 
-    def _fault(self) -> str | None:
+    def _find_fault(self) -> Finding | None:
         """Return why nothing can come, or None when something could.
 
         Asked of the publishers that are there now: one that has gone is no fault of the next.
         """
         publishers = self._node.get_publishers_info_by_topic(self.topic)
         if not publishers:
-            return f"topic '{self.topic}' has no publisher"
+            return self._fault(FindingKind.NO_PUBLISHER, "has no publisher")
         typed = [p for p in publishers if p.topic_type == self._type_name]
         if not typed:
             types = ", ".join(sorted({p.topic_type for p in publishers}))
-            return f"topic '{self.topic}' is published as {types}; expected is {self._type_name}"
-        misfits = [_misfit(p.qos_profile, self._profile) for p in typed]
-        if None not in misfits:
-            return (
-                f"topic '{self.topic}' has a publisher whose QoS does not fit "
-                f"({misfits[0]}), so nothing arrives"
-            )
-        return None
+            text = f"is published as {types}; expected is {self._type_name}"
+            return self._fault(FindingKind.WRONG_TYPE, text)
+        misfits = [_find_misfit(p.qos_profile, self._profile) for p in typed]
+        if None in misfits:
+            return None
+        text = f"has a publisher whose QoS does not fit ({misfits[0]}), so nothing arrives"
+        return self._fault(FindingKind.QOS_MISFIT, text)
+
+    def _fault(self, kind: FindingKind, text: str) -> Finding:
+        return Finding(kind, ERROR, f"topic '{self.topic}' {text}", self.topic)
 
 
 class Watched(Protocol):
-    """What a node waits for: one topic, or several of which one is enough."""
+    """An input that a node waits for: one topic, or several of which one is enough."""
 
     @property
     def topic(self) -> str:
@@ -151,66 +139,49 @@ class Watched(Protocol):
     def lost(self) -> int:
         """Messages that have not."""
 
-    def complaint(self, options: InputOptions) -> Complaint | None:
-        """Return why nothing came for ``options.silence``, or None when something did."""
+    def complaint(self, config: InputConfig) -> Finding | None:
+        """Return why nothing came for ``config.silence``, or None when something did."""
 
 
-class Watch:
-    """Looks at the inputs of a node by the wall clock and warns once for each new complaint."""
+class InputMonitor:
+    """Monitor of a node's inputs by the wall clock, which logs each new reason of silence once."""
 
-    def __init__(self, node: Node, inputs: Sequence[Watched], options: InputOptions) -> None:
-        self._node, self._inputs, self._options = node, inputs, options
-        self._said: dict[str, str | None] = {}
+    def __init__(self, node: Node, inputs: Sequence[Watched], config: InputConfig) -> None:
+        self._node, self._inputs, self._config = node, inputs, config
+        self._logged: dict[str, Key | None] = {}
         self._lost: dict[str, int] = {}
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._timer = node.create_timer(LOOK_EVERY, self._look, clock=steady)
+        self._timer = node.create_timer(LOOK_EVERY, self.look, clock=steady)
 
     def describe(self, status: Status) -> None:
-        """Put what is missing, and how much has arrived, into a report."""
-        for each in self._inputs:
-            status.values[f"received {each.topic}"] = each.received
-            status.values[f"lost {each.topic}"] = each.lost
-            complaint = each.complaint(self._options)
+        """Add what is missing, and how much has arrived, to a status."""
+        for watched in self._inputs:
+            topic = watched.topic
+            status.values[f"received {topic}"] = watched.received
+            status.values[f"lost {topic}"] = watched.lost
+            complaint = watched.complaint(self._config)
             if complaint is not None:
-                status.note(*complaint)
-            elif each.lost > self._lost.get(each.topic, 0):
-                status.note(WARN, f"samples on '{each.topic}' are lost before they get here")
-            self._lost[each.topic] = each.lost
+                status.note(complaint)
+            elif watched.lost > self._lost.get(topic, 0):
+                text = f"samples on '{topic}' are lost before they arrive"
+                status.note(Finding(FindingKind.LOST_MESSAGES, WARN, text, topic))
+            self._lost[topic] = watched.lost
 
-    def _look(self) -> None:
-        for each in self._inputs:
-            complaint = each.complaint(self._options)
-            kind = complaint and complaint.message.split(" for ")[0]
-            if kind == self._said.get(each.topic):
+    def look(self) -> None:
+        """Log the inputs that have fallen silent, or deliver again, since the last look."""
+        for watched in self._inputs:
+            complaint = watched.complaint(self._config)
+            key = None if complaint is None else complaint.key
+            if key == self._logged.get(watched.topic):
                 continue
-            self._said[each.topic] = kind
+            self._logged[watched.topic] = key
             if complaint is not None:
-                self._node.get_logger().warning(complaint.message)
+                self._node.get_logger().warning(complaint.text)
             else:
-                self._node.get_logger().info(f"topic '{each.topic}' delivers")
+                self._node.get_logger().info(f"topic '{watched.topic}' delivers")
 
 
-def watched_publisher(node: Node, message_type: Any, topic: str, profile: QoSProfile) -> Publisher:
-    """Return a publisher that warns when a subscriber asks for a QoS it does not offer."""
-
-    def warn(event: Any) -> None:
-        policy = qos_policy_name_from_kind(event.last_policy_kind)
-        node.get_logger().warning(
-            f"a subscriber of '{publisher.topic_name}' asks for a QoS that is not offered "
-            f"({policy}) and receives nothing"
-        )
-
-    def create(events: PublisherEventCallbacks) -> Publisher:
-        return node.create_publisher(message_type, topic, profile, event_callbacks=events)
-
-    try:
-        publisher = create(PublisherEventCallbacks(incompatible_qos=warn))
-    except UnsupportedEventTypeError:
-        publisher = create(PublisherEventCallbacks())
-    return publisher
-
-
-def _misfit(offered: QoSProfile, asked: QoSProfile) -> str | None:
+def _find_misfit(offered: QoSProfile, asked: QoSProfile) -> str | None:
     """Return in words why a publisher does not fit, or None when it does."""
     compatibility, reason = qos_check_compatible(offered, asked)
     if compatibility != QoSCompatibility.ERROR:

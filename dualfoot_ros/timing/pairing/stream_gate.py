@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core import ImuSeries
+from ...core import ImuSeries, Refusal
 from .pairing_config import Sync
 
-REFUSALS = ("not_finite", "duplicate", "out_of_order")
-COUNTERS = ("accepted", *REFUSALS, "gap")
+REFUSALS = (Refusal.NOT_FINITE, Refusal.DUPLICATE, Refusal.OUT_OF_ORDER)
+COUNTERS: tuple[str, ...] = ("accepted", *REFUSALS, Refusal.GAP)
 
 
 class Gate:
@@ -44,30 +44,30 @@ class Gate:
         """
         return self._backward >= self._restart_after
 
-    def refusal(self, stamp_ns: int, finite: bool) -> str | None:
-        """Return None for a sample that is let in, else the name of the counter that refused."""
+    def refusal(self, stamp_ns: int, finite: bool) -> Refusal | None:
+        """Return None for a sample that is let in, else why it is refused."""
         reason = self._judge(stamp_ns, finite)
         self.counters[reason or "accepted"] += 1
         if reason is None:
             self._newest = stamp_ns
         return reason
 
-    def _judge(self, stamp_ns: int, finite: bool) -> str | None:
+    def _judge(self, stamp_ns: int, finite: bool) -> Refusal | None:
         if not finite:
-            return "not_finite"
+            return Refusal.NOT_FINITE
         if self._newest is None:
             return None
         step = stamp_ns - self._newest
         if step > self._tolerance_ns:
             self._backward = 0
-            self.counters["gap"] += step > self._gap_ns
+            self.counters[Refusal.GAP] += step > self._gap_ns
             return None
         if step >= -self._tolerance_ns:
-            return "duplicate"
+            return Refusal.DUPLICATE
         # An increasing run of old stamps is a stream that began anew; a late sample is alone.
         self._backward = self._backward + 1 if stamp_ns > self._previous else 1
         self._previous = stamp_ns
-        return "out_of_order"
+        return Refusal.OUT_OF_ORDER
 
 
 def all_finite(values: list[float]) -> bool:
@@ -97,7 +97,7 @@ def clean(series: ImuSeries, config: Sync | None = None) -> Clean:
     steps = np.diff(series.stamp_ns)
     if finite.all() and (steps > config.tolerance_ns).all():
         gate.counters["accepted"] = len(series)
-        gate.counters["gap"] = int((steps > config.max_gap_ns).sum())
+        gate.counters[Refusal.GAP] = int((steps > config.max_gap_ns).sum())
         return Clean(series, gate.counters, None)
     keep = np.zeros(len(series), dtype=bool)
     for i, (stamp_ns, good) in enumerate(zip(series.stamp_ns.tolist(), finite, strict=True)):

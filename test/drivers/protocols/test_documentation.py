@@ -9,9 +9,9 @@ from dualfoot_ros.drivers import (
     COUNTERS,
     FORMATS,
     SCHEMES,
-    Backoff,
-    Checks,
-    Conditioning,
+    BackoffConfig,
+    CheckConfig,
+    ConditioningConfig,
     SourceError,
     parse_uri,
 )
@@ -25,9 +25,9 @@ ROWS = [line for line in TEXT.splitlines() if line.startswith("| `")]
     [
         *(scheme.options for scheme in SCHEMES.values()),
         *(known.options for known in FORMATS.values()),
-        Backoff,
-        Conditioning,
-        Checks,
+        BackoffConfig,
+        ConditioningConfig,
+        CheckConfig,
     ],
 )
 def test_every_option_is_documented_with_its_default(group):
@@ -55,6 +55,14 @@ def test_the_python_example_names_what_exists():
 
     (names,) = re.findall(r"from dualfoot_ros.drivers import (.*)", TEXT)
     assert all(hasattr(drivers, name.strip()) for name in names.split(","))
+
+
+def test_the_short_names_stand_for_the_same_classes():
+    import dualfoot_ros.drivers as drivers
+
+    short = re.findall(r"`(\w+)` \(`(\w+)` for short\)", TEXT)
+    assert len(short) == 2
+    assert all(getattr(drivers, name) is getattr(drivers, other) for name, other in short)
 
 
 def test_what_the_document_says_is_refused_is_refused():

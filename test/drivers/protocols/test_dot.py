@@ -5,8 +5,8 @@ import struct
 import numpy as np
 import pytest
 
-from dualfoot_ros.drivers.protocols.dot import DotDecoder, DotOptions
-from dualfoot_ros.drivers.protocols.dot_csv import DotCsvDecoder, DotCsvOptions
+from dualfoot_ros.drivers.protocols.dot import DotConfig, DotDecoder
+from dualfoot_ros.drivers.protocols.dot_csv import DotCsvConfig, DotCsvDecoder
 
 from ..frames import dot, dot_csv, stream, truth
 
@@ -14,7 +14,7 @@ from ..frames import dot, dot_csv, stream, truth
 @pytest.mark.parametrize("payload", ["rate", "rate_mag", "custom5"])
 @pytest.mark.parametrize("padding", [0, 6])
 def test_a_notification_is_a_sample(payload, padding):
-    decoder = DotDecoder(DotOptions(payload=payload, field_unit=5e-5))
+    decoder = DotDecoder(DotConfig(payload=payload, field_unit=5e-5))
     (sample,) = decoder.feed(dot(9, payload, padding), 5)
     force, rate = truth(9)
     assert sample.specific_force == pytest.approx(force, rel=1e-6)
@@ -71,7 +71,7 @@ def test_a_damaged_line_is_counted_and_the_next_one_read(line):
 
 
 def test_the_field_comes_when_its_unit_is_given():
-    decoder = DotCsvDecoder(DotCsvOptions(field_unit=5e-5))
+    decoder = DotCsvDecoder(DotCsvConfig(field_unit=5e-5))
     (sample,) = decoder.feed(stream("dot_csv", 1), 5)
     assert sample.magnetic_field == pytest.approx((2.5e-5, -1.25e-5, 3.75e-5))
 

@@ -4,7 +4,7 @@ import struct
 
 import pytest
 
-from dualfoot_ros.drivers.protocols.vectornav import VectorNavDecoder, VectorNavOptions, probe
+from dualfoot_ros.drivers.protocols.vectornav import VectorNavConfig, VectorNavDecoder, probe
 
 from ..frames import vectornav_message
 
@@ -62,7 +62,7 @@ def test_fields_stand_in_the_order_of_groups_and_bits():
 def test_the_preferred_kind_is_used_when_both_are_sent(prefer, expected):
     content = vectors(UNCOMPENSATED, COMPENSATED)
     message = vectornav_message(0b100, [1 << 2 | 1 << 3 | 1 << 9 | 1 << 10], content)
-    sample = decode_one(message, VectorNavOptions(prefer=prefer))
+    sample = decode_one(message, VectorNavConfig(prefer=prefer))
     assert (sample.specific_force, sample.angular_rate) == expected
 
 

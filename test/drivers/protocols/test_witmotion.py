@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from dualfoot_ros.drivers.protocols.witmotion import WitMotionDecoder, WitMotionOptions
+from dualfoot_ros.drivers.protocols.witmotion import WitMotionConfig, WitMotionDecoder
 
 from ..frames import wit, witmotion
 
@@ -44,7 +44,7 @@ def test_a_date_that_does_not_exist_is_counted_and_gives_no_time():
 
 
 def test_the_ranges_the_device_is_set_to_scale_its_values():
-    decoder = WitMotionDecoder(WitMotionOptions(force_range=4.0, rate_range=500.0))
+    decoder = WitMotionDecoder(WitMotionConfig(force_range=4.0, rate_range=500.0))
     (sample,) = decoder.feed(ACCELERATION + RATE, 5)
     assert sample.specific_force[2] == pytest.approx(9.80665 / 4)
     assert sample.angular_rate[0] == pytest.approx(math.radians(250))
@@ -78,7 +78,7 @@ def test_a_stream_that_starts_inside_a_frame_full_of_headers_finds_the_right_ste
 
 
 def test_the_magnetic_field_comes_when_its_unit_is_given():
-    decoder = WitMotionDecoder(WitMotionOptions(field_unit=1e-8))
+    decoder = WitMotionDecoder(WitMotionConfig(field_unit=1e-8))
     field = wit(0x54, (1000).to_bytes(2, "little") + bytes(6))
     (sample,) = decoder.feed(field + ACCELERATION + RATE, 5)
     assert sample.magnetic_field == pytest.approx((1e-5, 0.0, 0.0))

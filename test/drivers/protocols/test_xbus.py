@@ -4,7 +4,7 @@ import struct
 
 import pytest
 
-from dualfoot_ros.drivers.protocols.xbus import XbusDecoder, XbusOptions
+from dualfoot_ros.drivers.protocols.xbus import XbusConfig, XbusDecoder
 
 from ..frames import item, xbus, xbus_message
 
@@ -69,7 +69,7 @@ def test_temperature_and_field_come_along():
         MOTION,
         item(0x0810, struct.pack(">f", 31.5)),
         item(0xC020, struct.pack(">3f", 1, 0, -0.5)),
-        options=XbusOptions(field_unit=5e-5),
+        options=XbusConfig(field_unit=5e-5),
     )
     assert sample.temperature == 31.5
     assert sample.magnetic_field == pytest.approx((5e-5, 0.0, -2.5e-5))

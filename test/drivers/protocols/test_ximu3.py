@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from dualfoot_ros.drivers.protocols.ximu3 import XImu3Decoder, XImu3Options
+from dualfoot_ros.drivers.protocols.ximu3 import XImu3Config, XImu3Decoder
 
 from ..frames import truth, ximu3, ximu3_ascii
 
@@ -65,7 +65,7 @@ def test_a_value_that_is_no_number_is_refused(value):
 
 
 def test_temperature_and_field_of_other_messages_go_with_the_next_sample():
-    decoder = XImu3Decoder(XImu3Options(field_unit=5e-5))
+    decoder = XImu3Decoder(XImu3Config(field_unit=5e-5))
     data = b"T,1,25.5\nM,1,1.0,0.0,-0.5\n" + MANUAL_ASCII
     (sample,) = decoder.feed(data, 5)
     assert sample.temperature == 25.5

@@ -188,14 +188,14 @@ def test_two_devices_on_one_udp_port_are_noticed(hosts):
 def test_a_device_that_starts_again_with_another_port_is_not_two():
     senders = Senders()
     for name in ("a:1", "a:1", "a:2", "a:2", "a:3"):
-        senders.see(name, 1)
+        senders.count(name, 1)
     assert set(senders.returns.values()) == {0}
 
 
 def test_no_more_than_a_few_senders_are_kept():
     senders = Senders()
     for k in range(1000):
-        senders.see(f"a:{k}", 1)
+        senders.count(f"a:{k}", 1)
     assert (
         set(senders.samples)
         == set(senders.returns)

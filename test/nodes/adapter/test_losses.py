@@ -9,10 +9,11 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from drivers import frames
 from drivers.links import PluggedDevice
 
-from dualfoot_ros.drivers import Checks, Source, State
-from dualfoot_ros.nodes.adapter.losses import Refusals, in_words
+from dualfoot_ros.core import Refusal
+from dualfoot_ros.drivers import CheckConfig, Source, State
+from dualfoot_ros.nodes.adapter.losses import LossReport, in_words
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
-from dualfoot_ros.nodes.ros.diagnostics import OK, WARN, Status
+from dualfoot_ros.nodes.ros.status import OK, WARN, Status
 
 from ..samples import STANDING, status_values
 from .test_device import Adapter
@@ -81,7 +82,7 @@ def test_a_device_all_of_whose_samples_are_refused_is_not_said_to_be_silent(boar
     sending.bench.until(lambda: sending.adapter.samples, "samples")
     sending.fault = lambda k: "nan"
     said = sending.until(ERROR, "nothing that came can be used for")
-    assert "not finite" in said and "silent" not in said
+    assert Refusal.NOT_FINITE.words in said and "silent" not in said
     assert "nothing that came can be used" in capfd.readouterr().err
 
 
@@ -94,10 +95,10 @@ def test_a_device_that_never_sent_a_finite_sample_is_told_from_a_wrong_format(bo
 @pytest.mark.parametrize(
     ("fault", "every", "words"),
     [
-        ("nan", 3, "not finite"),
-        ("crc", 7, "with a wrong checksum"),
-        ("lost", 10, "lost on the way"),
-        ("far", 5, "out of range"),
+        ("nan", 3, Refusal.NOT_FINITE.words),
+        ("crc", 7, Refusal.BAD_CHECKSUM.words),
+        ("lost", 10, Refusal.LOST.words),
+        ("far", 5, Refusal.OUT_OF_RANGE.words),
     ],
 )
 def test_samples_that_are_refused_or_lost_are_a_warning_and_no_wrong_rate(
@@ -107,7 +108,7 @@ def test_samples_that_are_refused_or_lost_are_a_warning_and_no_wrong_rate(
     sending = boards(**values)
     sending.fault = lambda k: "" if k % every else fault
     said = sending.until(DiagnosticStatus.WARN, words)
-    assert said.startswith("since the last report, of ")
+    assert said.startswith("lost or refused of ")
     check = sending.adapter.node.check
     sending.bench.until(lambda: len(check._intervals) > 100, "intervals")
     assert check.rate_hz == pytest.approx(200.0) and check.findings == []
@@ -115,7 +116,7 @@ def test_samples_that_are_refused_or_lost_are_a_warning_and_no_wrong_rate(
 
 @pytest.mark.parametrize("fault", ["nan", "crc", "lost", "far"])
 def test_every_third_sample_that_is_missing_makes_no_lower_rate(fault):
-    checks = Checks(rate=200.0, force_range=1000.0)
+    checks = CheckConfig(rate=200.0, force_range=1000.0)
     source = Source("udp://127.0.0.1:0?format=mcu", lambda samples: None, checks=checks)
     for k in range(900):
         if (what := "" if k % 3 else fault) != "lost":
@@ -127,7 +128,7 @@ def test_samples_of_a_topic_that_are_not_finite_make_no_lower_rate(bench):
     node = bench.add(ImuAdapterNode, {"source": "topic:///x", "checks.rate": 200.0})
     for k in range(900):
         values = STANDING if k % 3 else STANDING * math.nan
-        node._sensed(k * 5_000_000, values + 1e-3 * math.sin(k))
+        node._check_sample(k * 5_000_000, values + 1e-3 * math.sin(k))
     assert node.check.rate_hz == pytest.approx(200.0)
 
 
@@ -145,7 +146,7 @@ def test_two_boards_on_one_port_are_named_with_what_to_do(boards, capfd):
 
 def test_datagrams_of_a_stranger_only_are_said_with_his_address(boards):
     sending = boards("&peers=127.0.0.7")
-    said = sending.until(ERROR, "takes nothing: it got ")
+    said = sending.until(ERROR, "accepts nothing: it received ")
     assert "datagrams from 127.0.0.1," in said and "peers (127.0.0.7)" in said
     assert "from 127.0.0.1" in status_values(sending.adapter.reports[-1])["foreign senders"]
 
@@ -167,8 +168,8 @@ def test_a_damaged_capture_ends_with_what_was_refused(bench, tmp_path, capfd):
     adapter = Adapter(bench, f"file://{path}?format=mcu&speed=0")
     bench.until(adapter.node.done.done, "the end of the file")
     (line,) = (each for each in capfd.readouterr().err.splitlines() if "is over" in each)
-    assert "played 94 samples, the file is over; what was not: 1 lost" in line
-    assert "5 with a wrong checksum" in line
+    assert "played 94 samples, the file is over; lost or refused: lost on the way (1)" in line
+    assert f"{Refusal.BAD_CHECKSUM.words} (5)" in line
 
 
 def test_a_device_that_goes_is_logged_once_each_time(bench, tmp_path, capfd):
@@ -188,26 +189,30 @@ def test_a_device_that_goes_is_logged_once_each_time(bench, tmp_path, capfd):
     lines = capfd.readouterr().err.splitlines()
     lost = [each for each in lines if "WARN" in each and str(device.path) in each]
     assert len(lost) in (2, 3)  # with the one from before it was there, where that was seen
-    assert all("is not there and is tried again" in each for each in lost)
+    assert all("is not available and is tried again" in each for each in lost)
 
 
 def test_a_few_samples_that_are_lost_are_only_counted():
-    refusals, status = Refusals(), Status()
-    refusals.describe({"samples": 100, "lost": 3}, status)
+    losses, status = LossReport(), Status()
+    losses.describe({"samples": 100, "lost": 3}, status)
     assert status.level == OK
-    refusals.describe({"samples": 200, "lost": 8}, status)
+    losses.describe({"samples": 200, "lost": 8}, status)
     assert (status.level, status.message) == (
         WARN,
-        "since the last report, of 105 samples: 5 lost on the way",
+        "lost or refused of 105 samples since the last report: lost on the way (5)",
     )
 
 
 def test_a_frame_with_a_wrong_checksum_is_not_said_to_be_lost_as_well():
-    refusals, status = Refusals(), Status()
-    refusals.describe({"samples": 90, "lost": 10, "bad_checksum": 10}, status)
-    assert status.message == "since the last report, of 100 samples: 10 with a wrong checksum"
+    losses, status = LossReport(), Status()
+    losses.describe({"samples": 90, "lost": 10, "bad_checksum": 10}, status)
+    assert status.message == (
+        "lost or refused of 100 samples since the last report: a wrong checksum (10)"
+    )
 
 
 def test_counts_are_put_in_words():
-    assert in_words({"lost": 2, "garbage_bytes": 7}) == "2 lost on the way, 7 bytes in no frame"
+    assert in_words({"lost": 2, "garbage_bytes": 7}) == (
+        "lost on the way (2), bytes that belong to no frame (7)"
+    )
     assert in_words({"samples": 100, "lost": 0}) == ""

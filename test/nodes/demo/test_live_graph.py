@@ -59,9 +59,9 @@ def test_what_the_twist_turns_forth_and_back_agrees_to_rounding(both):
 
 def test_every_sample_was_taken_and_none_refused(both):
     live, _ = both
-    assert live.refused["pairs"] == len(read_bag(DEMO).left) or live.refused["pairs"] > 13_000
+    assert live.counters["pairs"] == len(read_bag(DEMO).left) or live.counters["pairs"] > 13_000
     refusals = ("not_finite", "out_of_order", "duplicate", "gaps", "resets")
-    assert not any(live.refused.get(name) for name in refusals)
+    assert not any(live.counters.get(name) for name in refusals)
 
 
 def test_one_changed_bit_is_seen(both):

@@ -12,7 +12,7 @@ from dualfoot_ros.nodes.adapter.conversion import Conversion
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.ros.messages import imu_values
-from dualfoot_ros.settings.nodes import Covariance, Units
+from dualfoot_ros.settings.nodes import CovarianceConfig, UnitConfig
 
 from ..samples import STANDING, imu
 from ..test_imu_adapter import relayed
@@ -40,8 +40,10 @@ def test_the_adapter_corrects_with_the_calibration_of_its_foot(bench, both):
 def test_samples_are_corrected_in_si_and_in_the_axes_of_the_sensor_then_turned(yaw, unit):
     scale = 9.80665 if unit == "g" else 1.0
     triad = SensorCalibration(Triad(BIAS, MATRIX))
-    plain = Conversion(Mounting(yaw=yaw), Units(), Covariance())
-    whole = Conversion(Mounting(yaw=yaw), Units(specific_force=unit), Covariance(), triad)
+    plain = Conversion(Mounting(yaw=yaw), UnitConfig(), CovarianceConfig())
+    whole = Conversion(
+        Mounting(yaw=yaw), UnitConfig(specific_force=unit), CovarianceConfig(), triad
+    )
     corrected = triad.values(STANDING)
     sent = np.concatenate([STANDING[:3] / scale, STANDING[3:]])
     np.testing.assert_allclose(whole.values(sent), plain.values(corrected), atol=1e-9)
@@ -89,9 +91,11 @@ def test_an_adapter_takes_the_foot_of_its_parameter(bench, both, capfd):
 def test_fusion_corrects_each_foot_before_anything_else(bench, both, monkeypatch):
     node = bench.add(FusionNode, {"calibration": both})
     seen = {}
-    monkeypatch.setattr(node.aligner, "push", lambda foot, _, v: seen.update({foot: v}) or [])
+    monkeypatch.setattr(
+        node.streams.aligner, "push", lambda foot, _, v: seen.update({foot: v}) or []
+    )
     for foot in ("left", "right"):
-        node._receiver(foot)(imu(1))
+        node.streams.receive(foot, imu(1))
     expected = np.concatenate([MATRIX @ (STANDING[:3] - BIAS), STANDING[3:]])
     np.testing.assert_allclose(seen["left"], expected, atol=1e-9)
     expected = np.concatenate([STANDING[:3], STANDING[3:] - 0.1 * BIAS])

@@ -20,7 +20,7 @@ from dualfoot_ros.nodes.replay import ReplayNode
 from dualfoot_ros.nodes.ros import qos
 from dualfoot_ros.nodes.ros.messages import imu_values, set_time, to_ns
 from dualfoot_ros.recording import Recording, read_bag, write_bag
-from dualfoot_ros.settings.nodes import Input as InputOptions
+from dualfoot_ros.settings.nodes import InputConfig
 from dualfoot_ros.simulation import MagnetometerConfig, WalkConfig, simulate
 
 from ..samples import STANDING, imu, status_values
@@ -59,8 +59,8 @@ def test_a_walk_through_the_nodes_is_the_offline_run_to_the_bit(context, felt):
             (e.stamp_ns, e.accepted, e.detail["angle"]) for e in batch.of_kind(EventKind.AID)
         ]
         assert (sum(event.accepted for event in aids) > 10) == (name == "on")
-    assert live["on"].refused["fields"] == len(recording.left) + len(recording.right)
-    assert "fields" not in live["off"].refused
+    assert live["on"].counters["fields"] == len(recording.left) + len(recording.right)
+    assert "fields" not in live["off"].counters
 
 
 def test_replay_publishes_the_fields_of_a_bag_to_the_bit(bench, felt):
@@ -163,9 +163,9 @@ class Feet:
         self._field.publish(message)
 
     def sample(self, stamp_ns):
-        before = self.fusion.inputs["left"].received
+        before = self.fusion.streams.inputs["left"].received
         self._imu.publish(imu(stamp_ns))
-        self.bench.until(lambda: self.fusion.inputs["left"].received > before, "a sample")
+        self.bench.until(lambda: self.fusion.streams.inputs["left"].received > before, "a sample")
 
     def reported(self, key, value):
         def newest():
@@ -195,7 +195,7 @@ def test_a_field_gets_the_stamp_its_sample_gets_and_none_before_that_is_known(be
     feet.send(5_000, [1e-5, 1e-5, -4e-5])
     bench.until(lambda: feet.fusion.fields.received == 1, "a field")
     feet.sample(10_000)
-    stamped = feet.fusion.inputs["left"].arrival_ns
+    stamped = feet.fusion.streams.inputs["left"].arrival_ns
     feet.send(10_007, [1e-5, 1e-5, -4e-5])
     bench.until(lambda: feet.fusion.fields.received == 2, "another")
     assert taken == [stamped + 7]
@@ -203,9 +203,9 @@ def test_a_field_gets_the_stamp_its_sample_gets_and_none_before_that_is_known(be
 
 def test_an_aid_without_a_field_is_said_for_each_foot(bench):
     feet = Feet(bench, {**ON, "input.silence": 0.3}).connect()
-    fields, quick = feet.fusion.fields.feet, InputOptions(silence=0.3)
+    fields, quick = feet.fusion.fields.feet, InputConfig(silence=0.3)
     bench.until(lambda: all(each.complaint(quick) for each in fields.values()), "complaints")
-    said = fields["right"].complaint(quick).message
+    said = fields["right"].complaint(quick).text
     assert said.startswith("aids.magnetic_heading is on but there is no magnetic field of the r")
     assert said.endswith("topic '/right/imu/mag' has no publisher")
     feet.send(10**12, [1e-5, 1e-5, -4e-5])

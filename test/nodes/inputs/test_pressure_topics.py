@@ -12,16 +12,16 @@ from dualfoot_ros.nodes.demo.live_graph import run_live, run_offline, same_bits
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.replay import ReplayNode
 from dualfoot_ros.nodes.ros import qos
-from dualfoot_ros.nodes.ros.diagnostics import ERROR, WARN
 from dualfoot_ros.nodes.ros.messages import set_time, to_ns
+from dualfoot_ros.nodes.ros.status import ERROR, WARN
 from dualfoot_ros.recording import Recording, read_bag, write_bag
-from dualfoot_ros.settings.nodes import Input as InputOptions
+from dualfoot_ros.settings.nodes import InputConfig
 from dualfoot_ros.simulation import BarometerConfig, WalkConfig, simulate
 
 from ..samples import status_values
 
 ON = {"aids.barometer": True, "engine": "compiled", "reports.period": 0.1}
-QUICK = InputOptions(silence=0.3)
+QUICK = InputConfig(silence=0.3)
 
 
 def climb(folder, worn):
@@ -49,8 +49,8 @@ def test_a_climb_through_the_nodes_is_the_offline_run_to_the_bit(context, tmp_pa
             (e.stamp_ns, e.detail["height"]) for e in batch.of_kind(EventKind.AID)
         ]
         assert (len(aids) > 60) == (name == "on")
-    assert live["on"].refused["pressures"] == sum(map(len, recording.pressure.values()))
-    assert "pressures" not in live["off"].refused
+    assert live["on"].counters["pressures"] == sum(map(len, recording.pressure.values()))
+    assert "pressures" not in live["off"].counters
     heights = (live[name].trajectory.left.position[-1, 2] for name in configs)
     assert abs(np.subtract(*heights)) > 0.01
 
@@ -120,12 +120,13 @@ def test_a_barometer_that_is_on_without_pressure_is_said_and_one_sensor_is_enoug
     station = Station(bench, {**ON, "input.silence": 0.3}).connect()
     pressure = station.fusion.pressure
     bench.until(lambda: pressure.complaint(QUICK) is not None, "a complaint")
-    level, said = pressure.complaint(QUICK)
+    complaint = pressure.complaint(QUICK)
+    level, said = complaint.level, complaint.text
     assert said.startswith("aids.barometer is on but there is no air pressure")
     assert "topic '/left/pressure' has no publisher" in said
     assert "topic '/pressure' has 1 publisher(s) but no sample yet" in said
     assert level == WARN  # one sensor is enough, and it may yet begin
-    assert pressure.complaint(InputOptions(silence=0.3, first=0.1)).level == ERROR
+    assert pressure.complaint(InputConfig(silence=0.3, first=0.1)).level == ERROR
     station.send(10**12, 101325.0)
     bench.until(lambda: pressure.complaint(QUICK) is None, "no complaint")
 

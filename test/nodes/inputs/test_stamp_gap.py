@@ -3,8 +3,8 @@
 import pytest
 
 from dualfoot_ros.nodes.inputs import stamp_gap as module
-from dualfoot_ros.nodes.inputs.stamp_gap import Apart
-from dualfoot_ros.nodes.ros.diagnostics import ERROR, OK, OVER_S, WARN, Beginnings, Status
+from dualfoot_ros.nodes.inputs.stamp_gap import StampGap
+from dualfoot_ros.nodes.ros.status import ERROR, OK, WARN, FindingKind, Status
 from dualfoot_ros.timing import Aligner
 
 from ..samples import STANDING, STEP_NS, imu
@@ -16,7 +16,7 @@ class Bench:
 
     def __init__(self, monkeypatch):
         self.aligner, self.now_s = Aligner(), 0.0
-        self.apart = Apart(self.aligner)
+        self.gap = StampGap(self.aligner)
         self.stamp_ns = dict.fromkeys(FEET, 10**12)
         monkeypatch.setattr(module.time, "monotonic", lambda: self.now_s)
 
@@ -27,11 +27,11 @@ class Bench:
             self.now_s += 1e-9 * STEP_NS
             for foot in feet:
                 self.stamp_ns[foot] += STEP_NS
-                self.apart.see(foot, self.stamp_ns[foot])
+                self.gap.observe(foot, self.stamp_ns[foot])
                 self.aligner.push(foot, self.stamp_ns[foot], STANDING)
             if k % 100 == 99:
                 status = Status()
-                self.apart.describe(status)
+                self.gap.describe(status)
         return status
 
 
@@ -50,7 +50,8 @@ def test_feet_that_never_pair_are_an_error_with_foot_difference_and_remedy(feet,
     assert f"add {sign * 162.5:.3f} s with stamping.right_offset" in status.message
     for remedy in ("stamping.left and stamping.right to device", "dualfoot sync"):
         assert remedy in status.message
-    assert "feet apart" in status.logged
+    (finding,) = status.of_kind(FindingKind.STAMPS_APART)
+    assert finding.logged
     found = status.values["right less left, newest stamps (s)"]
     assert found == pytest.approx(-sign * 162.5, abs=0.02)
 
@@ -99,13 +100,4 @@ def test_fusion_says_it_in_diagnostics_and_log(bench, capfd):
 def test_fusion_does_not_blame_the_publisher_of_pairs_that_are_not_made(bench):
     walker = Walker(bench, {"sync": "external", "input.silence": 0.2, "input.first": 0.4})
     report = walker.report(lambda r: "no sample came for" in r.status[0].message)
-    assert "time_sync does, says in /diagnostics why" in report.status[0].message
-
-
-def test_a_finding_is_picked_once_until_it_has_stayed_away():
-    beginnings, found = Beginnings(), {"stuck": (WARN, "it is stuck")}
-    assert beginnings.among(found, 0.0) == ["it is stuck"]
-    assert beginnings.among(found, 1.0) == beginnings.among({}, 2.0) == []
-    assert beginnings.among(found, 0.9 * OVER_S) == []
-    assert beginnings.among({"stuck": (ERROR, "worse")}, 0.95 * OVER_S) == ["worse"]
-    assert beginnings.among(found, 3.0 * OVER_S) == ["it is stuck"]
+    assert "as time_sync, reports in /diagnostics why" in report.status[0].message

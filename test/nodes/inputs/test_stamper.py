@@ -4,7 +4,7 @@ import pytest
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.inputs.stamper import Stamper
-from dualfoot_ros.nodes.ros.diagnostics import ERROR, OK, WARN, Status
+from dualfoot_ros.nodes.ros.status import ERROR, OK, WARN, FindingKind, Status
 from dualfoot_ros.nodes.time_sync import TimeSyncNode
 from dualfoot_ros.simulation.arrivals import BleLink, arrivals
 from dualfoot_ros.timing import ClockModel, Stamping
@@ -76,7 +76,8 @@ def test_a_skew_beyond_the_limit_is_reported_with_the_limit_and_no_stamp_is_give
     assert set(found) == {None} and stamper.counters["not_stamped"] > 0
     assert status.level == ERROR
     assert "left foot is off by 15" in status.message and "beyond 10000 ppm" in status.message
-    assert status.logged["clock left refused"] == (ERROR, status.message)
+    (finding,) = status.of_kind(FindingKind.CLOCK_REFUSED)
+    assert finding.logged and finding.about == "left" and finding.text == status.message
 
 
 def test_a_time_that_no_message_can_hold_is_refused_and_counted():
@@ -99,8 +100,8 @@ def test_fusion_takes_the_policies_for_raw_streams_and_not_again_for_synchronise
     seen = []
     for sync in ("internal", "external"):
         node = bench.add(FusionNode, {"sync": sync, "stamping.right_offset": 2.0}, namespace=sync)
-        node.aligner.push = lambda foot, stamp_ns, values: seen.append(stamp_ns) or []
-        node._receiver("right")(imu(7))
+        node.streams.aligner.push = lambda foot, stamp_ns, values: seen.append(stamp_ns) or []
+        node.streams.receive("right", imu(7))
     assert seen == [2 * 10**9 + 7, 7]
 
 
@@ -108,12 +109,12 @@ def test_fusion_takes_the_policies_for_raw_streams_and_not_again_for_synchronise
 def test_no_node_hands_on_a_sample_before_the_clock_of_its_device_is_known(bench, kind):
     seen = []
     node = bench.add(kind, {"stamping.left": "device"})
-    node.aligner.push = lambda foot, stamp_ns, values: seen.append(stamp_ns) or []
+    node.streams.aligner.push = lambda foot, stamp_ns, values: seen.append(stamp_ns) or []
     for k in range(600):
-        node.inputs["left"].arrival_ns = HOUR_NS + k * STEP_NS
-        node._receiver("left")(imu(k * STEP_NS))
+        node.streams.inputs["left"].arrival_ns = HOUR_NS + k * STEP_NS
+        node.streams.receive("left", imu(k * STEP_NS))
     begun = 600 - len(seen)
-    assert 100 <= begun <= 300 and node.stamper.counters["settling"] == begun
+    assert 100 <= begun <= 300 and node.streams.stamper.counters["settling"] == begun
     assert seen[0] == pytest.approx(HOUR_NS + begun * STEP_NS, abs=5_000_000)
 
 

@@ -1,15 +1,15 @@
 import numpy as np
 import pytest
 
-from dualfoot_ros.nodes.inputs.unit_check import WINDOW, UnitSuspicion
+from dualfoot_ros.nodes.inputs.unit_check import WINDOW, UnitCheck
 
 
 def said_about(samples):
     warned = []
-    suspicion = UnitSuspicion("the left foot", warned.append)
+    check = UnitCheck(warned.append, "left")
     for values in samples:
-        suspicion.look(list(values))
-    assert suspicion.said == warned
+        check.add(list(values))
+    assert [finding.text for finding in check.findings] == warned
     return warned
 
 

@@ -5,9 +5,9 @@ import pytest
 
 from dualfoot_ros.core.samples.series import ImuSeries
 from dualfoot_ros.nodes.playback.player import Player, in_order
-from dualfoot_ros.settings.nodes import Play
+from dualfoot_ros.settings.nodes import PlayConfig
 
-FAST = Play(rate=1000.0, wait=0.0)
+FAST = PlayConfig(rate=1000.0, wait=0.0)
 
 
 def series(stamps):
@@ -71,7 +71,9 @@ def test_a_loop_goes_on_until_it_is_stopped():
             enough.set()
 
     samples = {"left": series(range(0, 50, 10))}
-    player = Player(lambda: in_order(samples), publish, Play(rate=1000.0, wait=0.0, loop=True))
+    player = Player(
+        lambda: in_order(samples), publish, PlayConfig(rate=1000.0, wait=0.0, loop=True)
+    )
     player.start()
     assert enough.wait(30.0)
     player.stop()
@@ -82,7 +84,10 @@ def test_nothing_is_played_before_somebody_listens():
     listening, got = threading.Event(), []
     samples = {"left": series([0, 10])}
     player = Player(
-        lambda: in_order(samples), got.append, Play(rate=1000.0, wait=60.0), ready=listening.is_set
+        lambda: in_order(samples),
+        got.append,
+        PlayConfig(rate=1000.0, wait=60.0),
+        ready=listening.is_set,
     )
     player.start()
     assert got == []
@@ -119,7 +124,7 @@ def test_the_rate_scales_the_time_between_samples(rate, monkeypatch):
 
     monkeypatch.setattr("dualfoot_ros.nodes.playback.player.time.monotonic", lambda: now[0])
     samples = {"left": series([0, 1_000_000_000, 3_000_000_000])}
-    player = Player(lambda: in_order(samples), lambda s: None, Play(rate=rate, wait=0.0))
+    player = Player(lambda: in_order(samples), lambda s: None, PlayConfig(rate=rate, wait=0.0))
     player._stop = Stop()
     player._play_once()
     assert sum(naps) == pytest.approx(3.0 / rate)

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from dualfoot_ros.core import yaw_quaternion
+from dualfoot_ros.core import YawTurn, yaw_quaternion
 from dualfoot_ros.core.results.events import Event, EventKind
 from dualfoot_ros.nodes.results.foot_path import FootPath
 
@@ -22,8 +22,8 @@ def end(foot="left"):
 
 
 def heading(yaw, foot="left"):
-    detail = {"yaw": yaw, "pivot": (0.0, 0.0, 0.0), "shift": (0.0, 0.0, 0.0)}
-    return Event(EventKind.HEADING, 0, foot, 0, detail=detail)
+    turn = YawTurn(yaw, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    return Event(EventKind.HEADING, 0, foot, 0, payload=turn)
 
 
 def walked(path, stances):

@@ -5,24 +5,24 @@ from sensor_msgs.msg import Imu
 from std_msgs.msg import String
 
 from dualfoot_ros.nodes.ros import qos
-from dualfoot_ros.nodes.ros.diagnostics import ERROR, WARN, Status
-from dualfoot_ros.nodes.ros.watched_input import Input, Watch, silence, watched_publisher
-from dualfoot_ros.settings.nodes import Input as InputOptions
+from dualfoot_ros.nodes.ros.status import ERROR, WARN, FindingKind, Status
+from dualfoot_ros.nodes.ros.watched_input import InputMonitor, WatchedInput, silence
+from dualfoot_ros.settings.nodes import InputConfig
 
 from ..samples import imu
 
-QUICK = InputOptions(silence=0.3)
+QUICK = InputConfig(silence=0.3)
 
 
 def listening(bench, profile=None):
     node = bench.plain("listener")
-    each = Input(node, Imu, "imu", lambda _: None, profile or qos.sensor(10))
-    return each, Watch(node, [each], QUICK)
+    each = WatchedInput(node, Imu, "imu", lambda _: None, profile or qos.sensor(10))
+    return each, InputMonitor(node, [each], QUICK)
 
 
 def said(each):
     complaint = each.complaint(QUICK)
-    return complaint.message if complaint else ""
+    return complaint.text if complaint else ""
 
 
 def level(each):
@@ -33,7 +33,8 @@ def level(each):
 def test_a_topic_without_publisher_is_named(bench):
     each, watch = listening(bench)
     bench.until(lambda: said(each))
-    assert each.complaint(QUICK) == (ERROR, "topic '/imu' has no publisher")
+    complaint = each.complaint(QUICK)
+    assert complaint.key == (FindingKind.NO_PUBLISHER, "/imu") and complaint.level == ERROR
     status = Status()
     watch.describe(status)
     assert (status.level, status.message) == (ERROR, "topic '/imu' has no publisher")
@@ -42,14 +43,19 @@ def test_a_topic_without_publisher_is_named(bench):
 @pytest.mark.parametrize(
     ("begun", "silent_s", "expected"),
     [
-        (False, 2.5, (WARN, "it is there but no sample yet")),
-        (False, 19.9, (WARN, "it is there but no sample yet")),
-        (False, 20.1, (ERROR, "it is there but no sample came for 20.1 s")),
-        (True, 2.5, (ERROR, "it is there but was silent for 2.5 s")),
+        (False, 2.5, (FindingKind.NOT_BEGUN, WARN, "it is there but no sample yet")),
+        (False, 19.9, (FindingKind.NOT_BEGUN, WARN, "it is there but no sample yet")),
+        (
+            False,
+            20.1,
+            (FindingKind.BEGINS_LATE, ERROR, "it is there but no sample came for 20.1 s"),
+        ),
+        (True, 2.5, (FindingKind.SILENT, ERROR, "it is there but was silent for 2.5 s")),
     ],
 )
 def test_only_what_has_not_begun_is_given_time(begun, silent_s, expected):
-    assert silence("it is there", begun, silent_s, InputOptions()) == expected
+    finding = silence("it is there", begun, silent_s, InputConfig())
+    assert (finding.kind, finding.level, finding.text) == expected
 
 
 def test_an_input_that_has_spoken_is_an_error_as_soon_as_it_is_silent(bench):
@@ -140,21 +146,3 @@ def test_samples_that_a_full_queue_drops_are_counted(bench):
     publisher.publish(imu(200))
     bench.until(lambda: each.received == 7)
     assert each.lost == 95
-
-
-def test_a_subscriber_that_asks_for_more_than_is_offered_is_warned_about(bench, program):
-    arguments = ["-p", "source:=topic:///sensor", "-r", "__ns:=/left"]
-    adapter = program("imu_adapter", "--ros-args", *arguments)
-    bench.plain().create_subscription(Imu, "/left/imu/data_raw", lambda _: None, RELIABLE)
-    said = "a subscriber of '/left/imu/data_raw' asks for a QoS that is not offered (RELIABILITY)"
-    bench.until(lambda: said in adapter.output, "the warning")
-
-
-def test_a_publisher_without_mismatch_says_nothing(bench, capfd):
-    node = bench.plain("talker")
-    publisher = watched_publisher(node, Imu, "imu", qos.sensor(10))
-    each, _ = listening(bench)
-    bench.until(publisher.get_subscription_count)
-    publisher.publish(imu(1))
-    bench.until(lambda: each.received == 1)
-    assert "QoS" not in capfd.readouterr().err

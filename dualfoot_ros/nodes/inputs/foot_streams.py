@@ -1,0 +1,104 @@
+"""Streams of both feet: their samples stamped, the stamps compared, the samples paired."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from rclpy.node import Node
+from sensor_msgs.msg import Imu
+
+from ...core import FEET, FloatArray, ImuPair
+from ...settings import InputConfig
+from ...timing import Aligner, ClockModel, Stamping, Sync
+from ..ros import qos
+from ..ros.declared_parameters import group
+from ..ros.messages import to_ns
+from ..ros.status import Status
+from ..ros.watched_input import InputMonitor, Watched, WatchedInput
+from .stamp_gap import StampGap
+from .stamper import Stamper
+
+ReadSample = Callable[[str, Imu, int], FloatArray]
+TakePair = Callable[[ImuPair], None]
+
+
+class FootStreams:
+    """Subscriptions to ``left/TOPIC`` and ``right/TOPIC``, from which pairs are made.
+
+    Attributes
+    ----------
+    inputs : the subscriptions, by foot
+    stamper : gives each sample its stamp, or refuses it
+    aligner : makes the pairs
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        topic: str,
+        values: Mapping[str, Any],
+        read_sample: ReadSample,
+        take_pair: TakePair,
+        *,
+        stamping: Stamping,
+        also: Sequence[Watched] = (),
+        hint: str = "",
+    ) -> None:
+        """Subscribe.
+
+        Parameters
+        ----------
+        values : the declared parameters of ``node``: those of ``aligner``, ``clock`` and ``input``
+        read_sample : called with foot, message and stamp (ns) of every sample that has one;
+            returns its specific force and angular rate (6,)
+        take_pair : called with every pair that is complete
+        stamping : where the stamps come from
+        also : further inputs to watch
+        hint : added to the text about a silent input
+        """
+        self._read_sample, self._take_pair = read_sample, take_pair
+        self.aligner = Aligner(group(Sync, values, "aligner."))
+        self.stamper = Stamper(stamping, group(ClockModel, values, "clock."))
+        self._stamp_gap = StampGap(self.aligner)
+        config = group(InputConfig, values, "input.")
+        profile = qos.sensor(config.depth)
+        self.inputs = {
+            foot: WatchedInput(node, Imu, f"{foot}/{topic}", self._receiver(foot), profile, hint)
+            for foot in FEET
+        }
+        self.monitor = InputMonitor(node, [*self.inputs.values(), *also], config)
+
+    def _receiver(self, foot: str) -> Callable[[Imu], None]:
+        return lambda message: self.receive(foot, message)
+
+    def receive(self, foot: str, message: Imu) -> None:
+        """Take the newest message of ``foot``."""
+        arrival_ns, header_ns = self.inputs[foot].arrival_ns, to_ns(message.header.stamp)
+        stamp_ns = self.stamper.stamp(foot, header_ns, arrival_ns)
+        if stamp_ns is None:
+            return
+        sample = self._read_sample(foot, message, stamp_ns)
+        self._stamp_gap.observe(foot, stamp_ns)
+        for pair in self.aligner.push(foot, stamp_ns, sample):
+            self._take_pair(pair)
+
+    @property
+    def received(self) -> int:
+        """Messages of both feet that have arrived."""
+        return sum(watched.received for watched in self.inputs.values())
+
+    @property
+    def lost(self) -> int:
+        """Messages of both feet that have not."""
+        return sum(watched.lost for watched in self.inputs.values())
+
+    def reset(self) -> None:
+        """Forget the samples that have not been paired yet; the counters stay."""
+        self.aligner.reset()
+
+    def describe(self, status: Status) -> None:
+        """Add inputs, clocks and the gap between the stamps to a status."""
+        self.monitor.describe(status)
+        self.stamper.describe(status)
+        self._stamp_gap.describe(status)

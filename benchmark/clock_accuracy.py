@@ -30,8 +30,8 @@ from dualfoot_ros.core import DualFootTracker, ImuSeries, TrackerConfig
 from dualfoot_ros.core.results.events import FEET
 from dualfoot_ros.core.results.trajectory import Trajectory
 from dualfoot_ros.simulation import ClockConfig, WalkConfig, simulate
-from dualfoot_ros.simulation.arrivals import BleLink, arrivals
-from dualfoot_ros.timing import Aligner, Counter, DeviceClock, Unwrapper
+from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
+from dualfoot_ros.timing import Aligner, CounterConfig, DeviceClock, Unwrapper
 
 START = 1_750_000_000_000_000_000
 SETTLED_S = 20.0
@@ -62,7 +62,7 @@ def follow(device_ns: np.ndarray, arrival_ns: np.ndarray) -> tuple[np.ndarray, D
     """Return the host times (N,) ns that the model gives, sample by sample."""
     start = int(device_ns[0]) // 1000
     wraps_after_12_s = WRAP - 12_000_000
-    unwrapper, clock = Unwrapper(Counter()), DeviceClock()
+    unwrapper, clock = Unwrapper(CounterConfig()), DeviceClock()
     found = np.empty(len(device_ns), dtype=np.int64)
     for i, (device, arrived) in enumerate(
         zip(device_ns.tolist(), arrival_ns.tolist(), strict=True)
@@ -73,7 +73,7 @@ def follow(device_ns: np.ndarray, arrival_ns: np.ndarray) -> tuple[np.ndarray, D
     return found, clock
 
 
-def own_waits(link: BleLink, sampled_ns: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+def own_waits(link: BleLinkConfig, sampled_ns: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     """Return arrivals (N,) ns over a link on which each notification's wait is drawn anew.
 
     No lattice of events: the wait is anything up to an interval, and an interval more for each
@@ -99,7 +99,7 @@ def one_run(burst: int, seed: int, waits: str = "events", duration_s: float = 60
     """Follow one random device over one random link."""
     rng = np.random.default_rng([burst, seed])
     rate = float(rng.choice([60.0, 100.0, 120.0, 200.0]))
-    link = BleLink(interval=float(rng.uniform(0.015, 0.05)), burst=burst)
+    link = BleLinkConfig(interval=float(rng.uniform(0.015, 0.05)), burst=burst)
     drift, offset = float(rng.uniform(-2000.0, 2000.0)), float(rng.uniform(-3600.0, 3600.0))
     speed = 1.0 + 1e-6 * drift
     elapsed = np.arange(int(duration_s * rate)) / (rate * speed)
@@ -175,7 +175,7 @@ def one_walk(seed: int, method: str) -> tuple[float, float, float]:
     for foot in FEET:
         series = getattr(simulation, foot)
         true = getattr(simulation, f"{foot}_truth").stamp_ns
-        link = BleLink(interval=float(rng.uniform(0.015, 0.05)))
+        link = BleLinkConfig(interval=float(rng.uniform(0.015, 0.05)))
         arrived = arrivals(link, true, rng)
         # The left foot, whose stamps are the grid, starts well within the right one's samples.
         use = (true - true[0]) * 1e-9 > SETTLED_S + (foot == "left")

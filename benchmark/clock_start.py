@@ -20,8 +20,8 @@ from rich.console import Console
 from rich.table import Table
 
 from dualfoot_ros.core.samples.series import FloatArray, IntArray
-from dualfoot_ros.simulation.arrivals import BleLink, arrivals
-from dualfoot_ros.timing import ClockModel, DeviceClock
+from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
+from dualfoot_ros.timing import DeviceClock, DeviceClockConfig
 
 START = 1_750_000_000_000_000_000
 DURATION_S = 12.0
@@ -56,7 +56,7 @@ def ble(burst: int, **options: float) -> Delays:
     """Return the delays of Bluetooth Low Energy with a random connection interval."""
 
     def delays(elapsed: FloatArray, rng: np.random.Generator) -> FloatArray:
-        link = BleLink(interval=float(rng.uniform(0.015, 0.05)), burst=burst, **options)
+        link = BleLinkConfig(interval=float(rng.uniform(0.015, 0.05)), burst=burst, **options)
         sampled = np.round(1e9 * elapsed).astype(np.int64)
         return 1e-9 * (arrivals(link, sampled, rng) - sampled) - link.least
 
@@ -126,7 +126,7 @@ def limit_table(runs: int, seed: int) -> Table:
         for number, delays in enumerate(LINKS.values()):
             for k in range(runs):
                 rng = np.random.default_rng([number, seed + k])
-                skew_ppm = times * ClockModel().max_skew * rng.choice([-1.0, 1.0])
+                skew_ppm = times * DeviceClockConfig().max_skew * rng.choice([-1.0, 1.0])
                 elapsed, device, arrived = device_on(delays, skew_ppm, MINUTE_S, rng)
                 clock = DeviceClock()
                 pairs = zip(device.tolist(), arrived.tolist(), strict=True)
@@ -135,7 +135,7 @@ def limit_table(runs: int, seed: int) -> Table:
                 refused += clock.state.phase == "refused"
         figures = [f"{np.median(stamped):.0f}", f"{max(stamped):.0f}"] if stamped else ["", ""]
         clocks = runs * len(LINKS)
-        row = [f"+-{times * ClockModel().max_skew:.0f}", str(clocks), str(len(stamped))]
+        row = [f"+-{times * DeviceClockConfig().max_skew:.0f}", str(clocks), str(len(stamped))]
         table.add_row(*row, *figures, f"{refused} of {clocks}")
     return table
 

@@ -17,8 +17,8 @@ from rich.table import Table
 
 from dualfoot_ros.core.results.events import FEET
 from dualfoot_ros.core.samples.series import IntArray
-from dualfoot_ros.simulation.arrivals import BleLink, arrivals
-from dualfoot_ros.timing import Aligner, Sync
+from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
+from dualfoot_ros.timing import Aligner, AlignerConfig
 
 STEP_NS, APART_NS = 10_000_000, 3_000_000
 DELAYS_S = (0.25, 0.5, 1.0, 2.0)
@@ -33,7 +33,7 @@ def steady(stamp_ns: IntArray, rng: np.random.Generator) -> IntArray:
 
 def bluetooth(stamp_ns: IntArray, rng: np.random.Generator) -> IntArray:
     """Return the arrivals (N,) ns over Bluetooth Low Energy with a random connection interval."""
-    return arrivals(BleLink(interval=float(rng.uniform(0.015, 0.05))), stamp_ns, rng)
+    return arrivals(BleLinkConfig(interval=float(rng.uniform(0.015, 0.05))), stamp_ns, rng)
 
 
 def feet(link: Callable[..., IntArray], lost: float, minutes: float, seed: int) -> Feet:
@@ -49,7 +49,7 @@ def feet(link: Callable[..., IntArray], lost: float, minutes: float, seed: int) 
 
 def run(streams: Feet, max_delay: float) -> tuple[list[float], int]:
     """Return the latencies (ms) of all pairs, and the number of those that were given up."""
-    aligner, values = Aligner(Sync(max_delay=max_delay)), np.zeros(6)
+    aligner, values = Aligner(AlignerConfig(max_delay=max_delay)), np.zeros(6)
     order = sorted(
         (int(arrived), int(stamp), foot)
         for foot, both in streams.items()

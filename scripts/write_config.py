@@ -19,8 +19,8 @@ DEFAULT = """\
 
 """
 NODES = """\
-# Every parameter of the nodes with its default, as declared in dualfoot_ros/settings/nodes.py; those of
-# the tracker (config/default.yaml) may be added to any section, or stand below '/**:'.
+# Every parameter of the nodes with its default, as declared in dualfoot_ros/settings/nodes.py;
+# those of the tracker (config/default.yaml) may be added to any section, or stand below '/**:'.
 # Written by `make config`: copy it, change the copy, and give it to bringup or to any node:
 #   ros2 run dualfoot_ros bringup --ros-args --params-file mine.yaml
 

@@ -12,7 +12,7 @@ from ..core import CalibrationError, FloatArray, ImuSeries
 from .allan import FLOOR, AllanCurve, Slopes, allan_curve, slopes_of
 from .sensor import TRIADS, Triad
 from .soundness import check_measured, usable_samples
-from .static import Static, no_standstill, still_spans
+from .static import StandstillConfig, no_standstill, still_spans
 
 LARGEST_BIAS = 0.15  # rad/s; more is a rotation (alignment.max_rate)
 UNITS = {"gyro": "rad/s", "accelerometer": "m/s^2"}
@@ -89,7 +89,9 @@ def driving_noise(slopes: Slopes, bias_time_s: float) -> float | None:
     return None if slopes.floor is None else slopes.floor * math.sqrt(2.0 / bias_time_s)
 
 
-def fit_gyro(recordings: Sequence[tuple[str, ImuSeries]], config: Static | None = None) -> GyroFit:
+def fit_gyro(
+    recordings: Sequence[tuple[str, ImuSeries]], config: StandstillConfig | None = None
+) -> GyroFit:
     """Fit on the longest standstill of the named recordings.
 
     Raises
@@ -98,7 +100,7 @@ def fit_gyro(recordings: Sequence[tuple[str, ImuSeries]], config: Static | None 
         When none has a standstill, the sensor turned steadily in it, or what it holds are no
         measurements.
     """
-    config = config or Static()
+    config = config or StandstillConfig()
     name, still = _longest(recordings, config)
     bias = still.angular_rate.mean(axis=0)
     worst = int(np.argmax(np.abs(bias)))
@@ -114,7 +116,9 @@ def fit_gyro(recordings: Sequence[tuple[str, ImuSeries]], config: Static | None 
     return GyroFit(bias, _bias_std(curves["gyro"], slopes["gyro"]), still, curves, slopes)
 
 
-def _longest(recordings: Sequence[tuple[str, ImuSeries]], config: Static) -> tuple[str, ImuSeries]:
+def _longest(
+    recordings: Sequence[tuple[str, ImuSeries]], config: StandstillConfig
+) -> tuple[str, ImuSeries]:
     found = []
     for name, series in recordings:
         good = usable_samples(series, name)

@@ -17,7 +17,7 @@ NEAR = np.cos(np.radians(15.0))  # attitudes closer than this are one
 
 
 @dataclass(frozen=True)
-class Static(Parameters):
+class StandstillConfig(Parameters):
     """When a sensor counts as still."""
 
     window: float = parameter(
@@ -77,7 +77,9 @@ class Segment:
         return Segment(self.name, self.duration_s / 2.0, part, self.rate)
 
 
-def segments_of(series: ImuSeries, name: str, config: Static | None = None) -> list[Segment]:
+def segments_of(
+    series: ImuSeries, name: str, config: StandstillConfig | None = None
+) -> list[Segment]:
     """Return the standstills of a recording.
 
     Raises
@@ -86,7 +88,7 @@ def segments_of(series: ImuSeries, name: str, config: Static | None = None) -> l
         When there is none, its gravity shows that the unit is wrong, or what it holds are no
         measurements.
     """
-    config = config or Static()
+    config = config or StandstillConfig()
     good = usable_samples(series, name)
     spans = still_spans(good, config)
     if not spans:
@@ -124,9 +126,9 @@ def attitudes(segments: Sequence[Segment]) -> list[int]:
     return numbers
 
 
-def still_spans(good: ImuSeries, config: Static | None = None) -> list[slice]:
+def still_spans(good: ImuSeries, config: StandstillConfig | None = None) -> list[slice]:
     """Return the samples of each standstill; a change of attitude or a gap ends one."""
-    config = config or Static()
+    config = config or StandstillConfig()
     size = _size(good, config)
     if not size:
         return []
@@ -139,7 +141,7 @@ def still_spans(good: ImuSeries, config: Static | None = None) -> list[slice]:
     ]
 
 
-def no_standstill(series: ImuSeries, name: str, config: Static) -> str:
+def no_standstill(series: ImuSeries, name: str, config: StandstillConfig) -> str:
     """Say that a recording has no standstill, and how far it is from one."""
     good, quality = clean(series).series, quality_of(series)
     told = f"'{name}': no standstill of {config.duration:g} s in {good.duration_s:.1f} s"
@@ -168,7 +170,7 @@ class _Windows(NamedTuple):
     rate: FloatArray
     whole: np.ndarray
 
-    def still(self, config: Static) -> np.ndarray:
+    def still(self, config: StandstillConfig) -> np.ndarray:
         """Return (W,) bool."""
         force_std = self.force.std(axis=1).max(axis=1)
         rate_std = self.rate.std(axis=1).max(axis=1)
@@ -178,7 +180,7 @@ class _Windows(NamedTuple):
         return still
 
 
-def _size(good: ImuSeries, config: Static) -> int:
+def _size(good: ImuSeries, config: StandstillConfig) -> int:
     """Return the samples of a window; 0 when there are not enough for one."""
     size = max(5, round(config.window * good.rate_hz)) if len(good) > 1 else 0
     return size if len(good) >= size else 0
@@ -193,7 +195,9 @@ def _windows(good: ImuSeries, size: int) -> _Windows:
     return _Windows(force, good.angular_rate[: count * size].reshape(count, size, 3), whole)
 
 
-def _runs(means: FloatArray, still: np.ndarray, config: Static) -> Iterator[tuple[int, int]]:
+def _runs(
+    means: FloatArray, still: np.ndarray, config: StandstillConfig
+) -> Iterator[tuple[int, int]]:
     """Yield the runs of still windows, ended where the sensor has come into another attitude."""
     first: int | None = None
     for k in range(len(still)):

@@ -31,7 +31,7 @@ from .rotation import (
     turn_quaternions,
     yaw_quaternion,
 )
-from .samples.mounting import IDENTITY, Matrix, Mounting, Vector, axes_matrix, dot
+from .samples.mounting import IDENTITY, Matrix, MountingConfig, Vector, axes_matrix, dot
 from .samples.series import (
     BoolArray,
     FieldSeries,
@@ -74,7 +74,7 @@ __all__ = [
     "ImuSeries",
     "IntArray",
     "Matrix",
-    "Mounting",
+    "MountingConfig",
     "Noise",
     "ParameterSpec",
     "Parameters",

@@ -4,12 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..core import FORCE_UNITS, IDENTITY, RATE_UNITS, Matrix, Mounting, Vector, dot, parameter
+from ..core import (
+    FORCE_UNITS,
+    IDENTITY,
+    RATE_UNITS,
+    Matrix,
+    MountingConfig,
+    Vector,
+    dot,
+    parameter,
+)
 from .sample import Sample
 
 
 @dataclass(frozen=True)
-class ConditioningConfig(Mounting):
+class ConditioningConfig(MountingConfig):
     """Mounting of the sensor on the foot, and the units it sends."""
 
     force_unit: str = parameter(

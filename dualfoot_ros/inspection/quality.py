@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core import FloatArray, ImuSeries
-from ..timing import Sync, clean
+from ..timing import AlignerConfig, clean
 from .standstill import Stand, first_stand
 from .stuck_values import Stuck, stuck_of
 
@@ -64,9 +64,9 @@ class Quality:
         return self.end_s - self.start_s
 
 
-def quality_of(series: ImuSeries, config: Sync | None = None) -> Quality:
+def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Quality:
     """Return the facts of ``series``."""
-    config = config or Sync()
+    config = config or AlignerConfig()
     good, counters, restart_at = clean(series, config)
     finite = np.isfinite(series.specific_force) & np.isfinite(series.angular_rate)
     bad = np.flatnonzero(~finite.all(axis=1))

@@ -14,7 +14,7 @@ from ..core import (
     Trajectory,
     stance_bounds,
 )
-from ..timing import Sync, align
+from ..timing import AlignerConfig, align
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,9 @@ def free_config(config: TrackerConfig) -> TrackerConfig:
     )
 
 
-def free_tracks(left: ImuSeries, right: ImuSeries, sync: Sync | None = None) -> Trajectory:
+def free_tracks(
+    left: ImuSeries, right: ImuSeries, sync: AlignerConfig | None = None
+) -> Trajectory:
     """Track both feet without any constraint between them.
 
     Raises

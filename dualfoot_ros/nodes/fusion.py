@@ -12,7 +12,7 @@ from std_srvs.srv import Trigger
 
 from ..core import FEET, DualFootTracker, FloatArray, ImuPair, TrackerConfig, all_specs
 from ..settings import FrameConfig, FusionConfig, InputConfig, PathConfig, node_specs
-from ..timing import Stamping
+from ..timing import StampConfig
 from .inputs.calibrations import load_for_feet
 from .inputs.field_topics import FieldInput, FieldInputs
 from .inputs.foot_streams import FootStreams
@@ -79,7 +79,7 @@ class FusionNode(Node):
 
     def _listen(self, external: bool, values: dict[str, Any]) -> None:
         """Subscribe to the feet; time_sync has already applied the stamping to external pairs."""
-        stamping = Stamping() if external else group(Stamping, values, "stamping.")
+        stamping = StampConfig() if external else group(StampConfig, values, "stamping.")
         aids = self._listen_for_aids(stamping, group(InputConfig, values, "input.").depth)
         self.streams = FootStreams(
             self,
@@ -93,7 +93,7 @@ class FusionNode(Node):
         )
 
     def _listen_for_aids(
-        self, stamping: Stamping, depth: int
+        self, stamping: StampConfig, depth: int
     ) -> list[PressureInputs | FieldInput]:
         """Subscribe to what the aids need; return the inputs that are to be watched."""
         aids, watched = self.tracker.config.aids, list[PressureInputs | FieldInput]()

@@ -16,7 +16,7 @@ from ..core import (
     FieldSeries,
     FloatArray,
     ImuSeries,
-    Mounting,
+    MountingConfig,
     Refusal,
     SourceError,
     Vector,
@@ -31,7 +31,7 @@ from ..settings import (
     UnitConfig,
     node_specs,
 )
-from ..timing import ClockModel
+from ..timing import DeviceClockConfig
 from .adapter import source_uri as sources
 from .adapter.adapter_report import AdapterReport
 from .adapter.conversion import Conversion
@@ -97,7 +97,7 @@ class ImuAdapterNode(Node):
         named = find_foot(self._config.foot, self.get_namespace())
         self._foot = named or FEET[0]
         self._conversion = Conversion(
-            group(Mounting, values, "mounting."),
+            group(MountingConfig, values, "mounting."),
             group(UnitConfig, values, "units."),
             group(CovarianceConfig, values, "covariance."),
             load_for_sensor(self._config.calibration, named),
@@ -119,7 +119,7 @@ class ImuAdapterNode(Node):
         self._added_ns: int | None = None  # by the stamping, to the newest sample of a file
         source = sources.parse(self._config.source)
         stamping = sources.choose_stamping(source, self._config, self._foot)
-        self.stamper = Stamper(stamping, group(ClockModel, values, "clock."))
+        self.stamper = Stamper(stamping, group(DeviceClockConfig, values, "clock."))
         self._open(source, values)
         self._reporter = Reporter(self, values, self._make_report().collect)
 

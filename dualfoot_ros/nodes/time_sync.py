@@ -10,7 +10,7 @@ from sensor_msgs.msg import Imu
 
 from ..core import FEET, FloatArray, ImuPair
 from ..settings import InputConfig, node_specs
-from ..timing import Stamping
+from ..timing import StampConfig
 from .inputs.foot_streams import FootStreams
 from .ros import qos
 from .ros.declared_parameters import declare, group
@@ -49,7 +49,7 @@ class TimeSyncNode(Node):
             values,
             self._read_sample,
             self._publish,
-            stamping=group(Stamping, values, "stamping."),
+            stamping=group(StampConfig, values, "stamping."),
         )
         self._rates = Rates()
         self._reporter = Reporter(self, values, self._collect)

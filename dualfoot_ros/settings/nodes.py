@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..core import Mounting, Parameters, ParameterSpec, parameter
+from ..core import MountingConfig, Parameters, ParameterSpec, parameter
 from ..drivers import CheckConfig
-from ..timing import POLICIES, ClockModel, Stamping, Sync
+from ..timing import POLICIES, AlignerConfig, DeviceClockConfig, StampConfig
 
 SYNC_CHOICES = ("internal", "external")
 
@@ -177,17 +177,17 @@ class BringupConfig(Parameters):
 
 
 GROUPS: dict[str, type[Parameters]] = {
-    "aligner": Sync,
+    "aligner": AlignerConfig,
     "input": InputConfig,
     "frames": FrameConfig,
     "path": PathConfig,
     "reports": ReportConfig,
-    "mounting": Mounting,
+    "mounting": MountingConfig,
     "units": UnitConfig,
     "covariance": CovarianceConfig,
     "checks": CheckConfig,
-    "stamping": Stamping,
-    "clock": ClockModel,
+    "stamping": StampConfig,
+    "clock": DeviceClockConfig,
     "play": PlayConfig,
 }
 NODES: dict[str, tuple[type[Parameters], tuple[str, ...]]] = {

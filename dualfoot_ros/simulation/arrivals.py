@@ -19,7 +19,7 @@ from ..core import FloatArray, IntArray, Parameters, parameter
 
 
 @dataclass(frozen=True)
-class BleLink(Parameters):
+class BleLinkConfig(Parameters):
     """One link; the defaults are usual for a phone or a laptop."""
 
     interval: float = parameter(
@@ -54,7 +54,7 @@ class BleLink(Parameters):
     )
 
 
-def arrivals(link: BleLink, sampled_ns: IntArray, rng: np.random.Generator) -> IntArray:
+def arrivals(link: BleLinkConfig, sampled_ns: IntArray, rng: np.random.Generator) -> IntArray:
     """Return the (N,) ns at which samples taken at ``sampled_ns`` (N,) reach the host.
 
     Both are of the host's clock and never decrease; no sample arrives before it was taken.
@@ -75,7 +75,7 @@ def arrivals(link: BleLink, sampled_ns: IntArray, rng: np.random.Generator) -> I
 
 
 def _events(
-    link: BleLink, ready: FloatArray, phase: float, rng: np.random.Generator
+    link: BleLinkConfig, ready: FloatArray, phase: float, rng: np.random.Generator
 ) -> FloatArray:
     """Return the time (s) of the connection event that carries each notification."""
     failed = rng.geometric(1.0 - link.failure, len(ready)) - 1
@@ -89,5 +89,5 @@ def _events(
     return np.maximum.accumulate(event)
 
 
-def _next_event(link: BleLink, time_s: FloatArray, phase: float) -> FloatArray:
+def _next_event(link: BleLinkConfig, time_s: FloatArray, phase: float) -> FloatArray:
     return phase + link.interval * np.ceil((time_s - phase) / link.interval)

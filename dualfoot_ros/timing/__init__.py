@@ -1,32 +1,37 @@
 """Time: two streams of samples become pairs with equal stamps."""
 
 from ..core import TimingError
-from .clock.clock_config import ClockModel
-from .clock.counter import Counter, Unwrapper
+from .clock.clock_config import DeviceClockConfig
+from .clock.counter import CounterConfig, Unwrapper
 from .clock.device_clock import DeviceClock
-from .clock.stamps import POLICIES, Stamping, Stamps
+from .clock.stamps import POLICIES, StampConfig, Stamps
 from .clock.state import ClockState
 from .offset.motion_offset import offset_by_motion
 from .offset.result import Offset
 from .offset.synchronise import Synchronised, synchronise
 from .pairing.batch import AlignReport, align, align_with_report
-from .pairing.pairing_config import Sync
+from .pairing.pairing_config import AlignerConfig
 from .pairing.stream_gate import Clean, clean
 from .pairing.streaming import Aligner
+
+Counter = CounterConfig  # names of version 0.1
+Stamping = StampConfig
 
 __all__ = [
     "POLICIES",
     "AlignReport",
     "Aligner",
+    "AlignerConfig",
     "Clean",
-    "ClockModel",
     "ClockState",
     "Counter",
+    "CounterConfig",
     "DeviceClock",
+    "DeviceClockConfig",
     "Offset",
+    "StampConfig",
     "Stamping",
     "Stamps",
-    "Sync",
     "Synchronised",
     "TimingError",
     "Unwrapper",

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.calibration import CalibrationError
-from dualfoot_ros.calibration.static import Static, attitudes, segments_of, still_spans
+from dualfoot_ros.calibration.static import StandstillConfig, attitudes, segments_of, still_spans
 
 from .rest import RATE_HZ, joined, moving, resting, segments
 
@@ -59,5 +59,5 @@ def test_wrong_units_are_refused_with_the_value(scale, shown):
 def test_samples_that_are_not_finite_are_left_out():
     series = resting([0, 0, 1])
     series.specific_force[10] = np.nan
-    (segment,) = segments_of(series, "one", Static(duration=1.0))
+    (segment,) = segments_of(series, "one", StandstillConfig(duration=1.0))
     assert np.isfinite(segment.mean).all()

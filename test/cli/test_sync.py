@@ -8,7 +8,7 @@ import pytest
 
 from dualfoot_ros.recording import Recording, read_bag, write_bag
 from dualfoot_ros.simulation import ClockConfig, WalkConfig, simulate
-from dualfoot_ros.simulation.arrivals import BleLink, arrivals
+from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
 
 SHIFT_NS = 41_250_000_000
 
@@ -31,7 +31,7 @@ def live(tmp_path_factory):
     times = {}
     for foot in ("left", "right"):
         true = getattr(walk, f"{foot}_truth").stamp_ns
-        times[foot] = arrivals(BleLink(interval=0.0371), true, rng)
+        times[foot] = arrivals(BleLinkConfig(interval=0.0371), true, rng)
     path = tmp_path_factory.mktemp("live") / "walk"
     write_with_log_times(path, {"left": walk.left, "right": walk.right}, times)
     return path, walk

@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 
 from dualfoot_ros.drivers import make_decoder
-from dualfoot_ros.timing.clock.counter import Counter, Unwrapper
+from dualfoot_ros.timing.clock.counter import CounterConfig, Unwrapper
 
 from .frames import FORMATS, PERIOD_US, decoder_format, preamble, stream
 
@@ -19,7 +19,7 @@ def test_unwrapped_ticks_advance_by_the_sampling_period(name, first):
     decoder.feed(preamble(name), 0)
     samples = decoder.feed(stream(name, 60, first=first)[len(preamble(name)) :], 0)
     assert len(samples) == 60
-    model = Counter(bits=str(samples[0].tick_bits), rate=1e9 / samples[0].tick_ns)
+    model = CounterConfig(bits=str(samples[0].tick_bits), rate=1e9 / samples[0].tick_ns)
     unwrapper = Unwrapper(model)
     times = [unwrapper.time_ns(sample.ticks) for sample in samples]
     steps = {after - before for before, after in pairwise(times)}

@@ -34,8 +34,8 @@ from dualfoot_ros.nodes.ros.diagnostics import Beginnings
 from dualfoot_ros.nodes.ros.status import Status
 from dualfoot_ros.nodes.ros.watched_input import InputMonitor, WatchedInput
 from dualfoot_ros.settings import InputConfig
-from dualfoot_ros.simulation.arrivals import BleLink, arrivals
-from dualfoot_ros.timing import Aligner, ClockModel, Stamping
+from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
+from dualfoot_ros.timing import Aligner, DeviceClockConfig, StampConfig
 
 STEP_NS = 10_000_000
 HOUR_NS = 3600 * 10**9
@@ -164,12 +164,15 @@ def stamps_apart(stage):
 
 def device_clocks(stage):
     for rate, count in ((1.0, 100), (1e-3, 3000), (1.015, 2000)):
-        stamper = Stamper(Stamping(left="device"), ClockModel())
+        stamper = Stamper(StampConfig(left="device"), DeviceClockConfig())
         for k in range(count):
             stamper.stamp("left", round(k * STEP_NS * rate), HOUR_NS + k * STEP_NS)
         stage.report(stamper.describe)
-    stamper, sampled = Stamper(Stamping(left="device"), ClockModel()), np.arange(3000) * STEP_NS
-    arrived = HOUR_NS + arrivals(BleLink(interval=0.025), sampled, np.random.default_rng(1))
+    stamper, sampled = (
+        Stamper(StampConfig(left="device"), DeviceClockConfig()),
+        np.arange(3000) * STEP_NS,
+    )
+    arrived = HOUR_NS + arrivals(BleLinkConfig(interval=0.025), sampled, np.random.default_rng(1))
     for sampled_ns, arrived_ns in zip(sampled.tolist(), arrived.tolist(), strict=True):
         stamper.stamp("left", sampled_ns, arrived_ns)
     stamper.stamp("right", -1, 0)

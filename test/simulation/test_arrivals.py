@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.simulation.arrivals import BleLink, arrivals
+from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
 
 QUIET = {"handling": 0.0, "failure": 0.0, "stall": 0.0, "tail_share": 0.0}
 
@@ -28,7 +28,7 @@ def delays(link, seed=0, **how):
 )
 def test_no_sample_arrives_before_it_was_taken_or_out_of_order(interval, burst, count, seed):
     stamps = sampled()[:count]
-    link = BleLink(interval=interval, burst=burst)
+    link = BleLinkConfig(interval=interval, burst=burst)
     found = arrivals(link, stamps, np.random.default_rng(seed))
     assert found.shape == stamps.shape
     assert np.all(found - stamps >= link.least * 1e9)
@@ -36,30 +36,30 @@ def test_no_sample_arrives_before_it_was_taken_or_out_of_order(interval, burst, 
 
 
 def test_a_quiet_link_delivers_within_one_connection_interval():
-    found = delays(BleLink(interval=0.0371, burst=1, least=0.004, **QUIET))
+    found = delays(BleLinkConfig(interval=0.0371, burst=1, least=0.004, **QUIET))
     assert found.min() == pytest.approx(0.004, abs=1e-4)
     assert found.max() == pytest.approx(0.004 + 0.0371, abs=1e-3)
 
 
 def test_the_samples_of_a_notification_arrive_together():
-    found = arrivals(BleLink(burst=10), sampled(), np.random.default_rng(0))
+    found = arrivals(BleLinkConfig(burst=10), sampled(), np.random.default_rng(0))
     assert np.all(np.ptp(found.reshape(-1, 10), axis=1) == 0)
 
 
 def test_stalls_hold_samples_back_for_their_length():
-    quiet = delays(BleLink(burst=1, **QUIET))
-    stalled = delays(BleLink(burst=1, **{**QUIET, "stall": 0.1, "stall_period": 2.0}))
+    quiet = delays(BleLinkConfig(burst=1, **QUIET))
+    stalled = delays(BleLinkConfig(burst=1, **{**QUIET, "stall": 0.1, "stall_period": 2.0}))
     assert quiet.max() < 0.04
     assert 0.1 < stalled.max() < 0.17
     assert 0.02 < np.mean(stalled > 0.04) < 0.1
 
 
 def test_the_tail_is_heavy():
-    found = delays(BleLink(burst=1), duration=600.0)
+    found = delays(BleLinkConfig(burst=1), duration=600.0)
     assert np.quantile(found, 0.5) < 0.03
     assert found.max() > 0.3
 
 
 def test_a_notification_period_that_is_a_multiple_of_the_interval_hides_the_least_delay():
-    found = delays(BleLink(interval=0.05, burst=10, **QUIET), seed=3)[9::10]
+    found = delays(BleLinkConfig(interval=0.05, burst=10, **QUIET), seed=3)[9::10]
     assert np.ptp(found) < 1e-6

@@ -17,7 +17,7 @@ IDENTITY: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 @dataclass(frozen=True)
-class Mounting(Parameters):
+class MountingConfig(Parameters):
     """From the sensor's axes to forward-left-up: axes named anew, then turned about fixed axes.
 
     A vector v of the sensor becomes Rz(yaw) Ry(pitch) Rx(roll) M v, M the matrix of ``axes``.

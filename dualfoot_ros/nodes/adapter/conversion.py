@@ -8,7 +8,7 @@ import numpy as np
 from sensor_msgs.msg import Imu
 
 from ...calibration import SensorCalibration
-from ...core import FORCE_UNITS, RATE_UNITS, FloatArray, Mounting
+from ...core import FORCE_UNITS, RATE_UNITS, FloatArray, MountingConfig
 from ...settings import CovarianceConfig, UnitConfig
 
 
@@ -17,7 +17,7 @@ class Conversion:
 
     def __init__(
         self,
-        mounting: Mounting,
+        mounting: MountingConfig,
         units: UnitConfig,
         covariance: CovarianceConfig,
         calibration: SensorCalibration | None = None,

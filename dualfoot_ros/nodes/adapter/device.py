@@ -13,7 +13,7 @@ from rclpy.node import Node
 from ...core import FloatArray, Refusal, SourceError, Vector
 from ...drivers import CheckConfig, Sample, Source, State
 from ...settings import InputConfig
-from ...timing import Counter, Unwrapper
+from ...timing import CounterConfig, Unwrapper
 from ..ros.status import ERROR, OK, WARN, Finding, FindingKind, Status
 from ..ros.watched_input import silence
 from .losses import REFUSED, in_words, increases
@@ -95,7 +95,7 @@ class Device:
             return None
         if self._unwrapper is None:
             self._unwrapper = Unwrapper(
-                Counter(bits=str(sample.tick_bits), rate=1e9 / sample.tick_ns)
+                CounterConfig(bits=str(sample.tick_bits), rate=1e9 / sample.tick_ns)
             )
         return self._unwrapper.time_ns(sample.ticks, sample.arrival_ns)
 

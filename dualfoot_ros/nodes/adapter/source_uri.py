@@ -14,7 +14,7 @@ from ...core import ConfigError, ImuSeries
 from ...drivers import FORMATS, parse_uri
 from ...recording import RecordingError, read_bag
 from ...settings import AdapterConfig
-from ...timing import Stamping
+from ...timing import StampConfig
 from ..ros.program import in_one_line
 
 RECORDED = "file"
@@ -82,12 +82,12 @@ def is_live(source: Source) -> bool:
     return source.kind == DEVICE and urlsplit(source.target).scheme in DEVICES
 
 
-def choose_stamping(source: Source, config: AdapterConfig, foot: str) -> Stamping:
+def choose_stamping(source: Source, config: AdapterConfig, foot: str) -> StampConfig:
     """Return the stamping of the samples of ``foot`` that the parameters ask for."""
     policy = config.stamp
     if policy == "auto":
         policy = "device" if is_live(source) else "header"
-    return Stamping.from_mapping({foot: policy, f"{foot}_offset": config.stamp_offset})
+    return StampConfig.from_mapping({foot: policy, f"{foot}_offset": config.stamp_offset})
 
 
 def load(source: Source, foot: str) -> ImuSeries:

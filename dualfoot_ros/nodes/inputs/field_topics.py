@@ -12,7 +12,7 @@ from sensor_msgs.msg import MagneticField
 from ...core import FEET, FloatArray
 from ...recording import Topics
 from ...settings import InputConfig
-from ...timing import Stamping
+from ...timing import StampConfig
 from ..ros import qos
 from ..ros.messages import set_time, to_ns
 from ..ros.status import Finding, Status
@@ -50,7 +50,7 @@ class FieldInputs:
     A field has no clock of its own: what the stamping adds to the samples it adds to the field.
     """
 
-    def __init__(self, node: Node, take: Take, stamping: Stamping, depth: int) -> None:
+    def __init__(self, node: Node, take: Take, stamping: StampConfig, depth: int) -> None:
         """``take`` is called with foot, stamp (ns) and field (3,) T."""
         self._take = take
         self._added_ns: dict[str, int | None] = {

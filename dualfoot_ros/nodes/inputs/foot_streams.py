@@ -10,7 +10,7 @@ from sensor_msgs.msg import Imu
 
 from ...core import FEET, FloatArray, ImuPair
 from ...settings import InputConfig
-from ...timing import Aligner, ClockModel, Stamping, Sync
+from ...timing import Aligner, AlignerConfig, DeviceClockConfig, StampConfig
 from ..ros import qos
 from ..ros.declared_parameters import group
 from ..ros.messages import to_ns
@@ -41,7 +41,7 @@ class FootStreams:
         read_sample: ReadSample,
         take_pair: TakePair,
         *,
-        stamping: Stamping,
+        stamping: StampConfig,
         also: Sequence[Watched] = (),
         hint: str = "",
     ) -> None:
@@ -58,8 +58,8 @@ class FootStreams:
         hint : added to the text about a silent input
         """
         self._read_sample, self._take_pair = read_sample, take_pair
-        self.aligner = Aligner(group(Sync, values, "aligner."))
-        self.stamper = Stamper(stamping, group(ClockModel, values, "clock."))
+        self.aligner = Aligner(group(AlignerConfig, values, "aligner."))
+        self.stamper = Stamper(stamping, group(DeviceClockConfig, values, "clock."))
         self._stamp_gap = StampGap(self.aligner)
         config = group(InputConfig, values, "input.")
         profile = qos.sensor(config.depth)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 
 from ...core import Refusal
-from ...timing import ClockModel, ClockState, Stamping, Stamps
+from ...timing import ClockState, DeviceClockConfig, StampConfig, Stamps
 from ..ros.status import ERROR, WARN, Finding, FindingKind, Status
 
 LARGEST_NS = (1 << 31) * 1_000_000_000  # a stamp of ROS can hold no more
@@ -25,7 +25,7 @@ class Stamper:
     hold.
     """
 
-    def __init__(self, stamping: Stamping, model: ClockModel) -> None:
+    def __init__(self, stamping: StampConfig, model: DeviceClockConfig) -> None:
         self.counters: dict[str, int] = {Refusal.SETTLING: 0, Refusal.NOT_STAMPED: 0}
         self._stamps, self._model = Stamps(stamping, model), model
         self._reported = 0

@@ -8,7 +8,7 @@ from ...core import Parameters, parameter
 
 
 @dataclass(frozen=True)
-class ClockModel(Parameters):
+class DeviceClockConfig(Parameters):
     """How the clock of a device is followed on the host's clock."""
 
     horizon: float = parameter(

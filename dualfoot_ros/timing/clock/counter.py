@@ -12,7 +12,7 @@ COUNTERS = ("counted", "wraps", "duplicates", "out_of_order", "restarts", "jumps
 
 
 @dataclass(frozen=True)
-class Counter(Parameters):
+class CounterConfig(Parameters):
     """What kind of counter a device stamps its samples with."""
 
     bits: str = parameter("32", "width of the counter", choices=BITS)
@@ -63,8 +63,8 @@ class Unwrapper:
     ``jumps``.
     """
 
-    def __init__(self, config: Counter | None = None) -> None:
-        self.config = config or Counter()
+    def __init__(self, config: CounterConfig | None = None) -> None:
+        self.config = config or CounterConfig()
         self._period = self.config.period_ns
         self._range = self.config.range
         self._slack_ns = round(self.config.slack * 1e9)

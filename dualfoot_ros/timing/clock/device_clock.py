@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .clock_config import ClockModel
+from .clock_config import DeviceClockConfig
 from .connection_events import ConnectionEvents
 from .envelope import LowerEnvelope
 from .line import Line
@@ -36,8 +36,8 @@ class DeviceClock:
     ``jumps`` (either clock was set).
     """
 
-    def __init__(self, config: ClockModel | None = None) -> None:
-        self.config = config or ClockModel()
+    def __init__(self, config: DeviceClockConfig | None = None) -> None:
+        self.config = config or DeviceClockConfig()
         self.counters = dict.fromkeys(COUNTERS, 0)
         self.epoch = 0
         self._jump_ns = round(self.config.jump * 1e9)

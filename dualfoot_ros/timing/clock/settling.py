@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .clock_config import ClockModel
+from .clock_config import DeviceClockConfig
 from .envelope import LowerEnvelope
 from .line import Line
 
@@ -20,7 +20,7 @@ class Settling:
     - the offset is known to ``tracking_std`` from enough arrivals, or ``settle`` has passed.
     """
 
-    def __init__(self, config: ClockModel) -> None:
+    def __init__(self, config: DeviceClockConfig) -> None:
         self._config = config
         self.over = False
         self.begin()

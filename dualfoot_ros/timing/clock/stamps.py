@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ...core import FEET, Parameters, parameter
-from .clock_config import ClockModel
+from .clock_config import DeviceClockConfig
 from .device_clock import DeviceClock
 from .state import ClockState
 
@@ -14,7 +14,7 @@ POLICIES = ("header", "device", "arrival")
 
 
 @dataclass(frozen=True)
-class Stamping(Parameters):
+class StampConfig(Parameters):
     """Where the stamps of the two feet come from.
 
     ``header`` takes them as they are; ``device`` takes them as time of the device's own clock and
@@ -54,8 +54,10 @@ class Stamps:
     observed otherwise; ``agreement: shared`` removes it for devices that keep one clock.
     """
 
-    def __init__(self, config: Stamping | None = None, model: ClockModel | None = None) -> None:
-        self.config = config or Stamping()
+    def __init__(
+        self, config: StampConfig | None = None, model: DeviceClockConfig | None = None
+    ) -> None:
+        self.config = config or StampConfig()
         one = DeviceClock(model)
         shared = self.config.agreement == "shared"
         self.clocks: Mapping[str, DeviceClock] = {

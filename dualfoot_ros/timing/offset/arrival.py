@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...core import IntArray, TimingError
-from ..clock.clock_config import ClockModel
+from ..clock.clock_config import DeviceClockConfig
 from ..clock.device_clock import DeviceClock
 from .result import Offset
 
@@ -36,7 +36,7 @@ def offset_by_arrival(foot: str, stamp_ns: IntArray, arrival_ns: IntArray) -> Of
             "its clock from the arrivals"
         )
     horizon = min(max(2.0 * span_s, 10.0), 86_400.0)
-    clock = DeviceClock(ClockModel(horizon=horizon, bin=max(horizon / BINS / 2.0, 0.05)))
+    clock = DeviceClock(DeviceClockConfig(horizon=horizon, bin=max(horizon / BINS / 2.0, 0.05)))
     for device_ns, arrived_ns in zip(stamp_ns.tolist(), arrival_ns.tolist(), strict=True):
         clock.update(device_ns, arrived_ns)
     _check(foot, clock)

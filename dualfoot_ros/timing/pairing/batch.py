@@ -12,7 +12,7 @@ import numpy as np
 
 from ...core import FEET, BoolArray, ImuSeries, IntArray, TimingError
 from .grid_lookup import GridLookup
-from .pairing_config import Sync
+from .pairing_config import AlignerConfig
 from .stream_gate import Clean, clean
 
 
@@ -33,14 +33,14 @@ class AlignReport:
 
 
 def align(
-    left: ImuSeries, right: ImuSeries, config: Sync | None = None
+    left: ImuSeries, right: ImuSeries, config: AlignerConfig | None = None
 ) -> tuple[ImuSeries, ImuSeries]:
     """Return both series on one grid with equal stamps; see :func:`align_with_report`."""
     return align_with_report(left, right, config)[:2]
 
 
 def align_with_report(
-    left: ImuSeries, right: ImuSeries, config: Sync | None = None
+    left: ImuSeries, right: ImuSeries, config: AlignerConfig | None = None
 ) -> tuple[ImuSeries, ImuSeries, AlignReport]:
     """Return both series on one grid with equal stamps, and what became of their samples.
 
@@ -53,7 +53,7 @@ def align_with_report(
     TimingError
         When the stamps of a foot jump back and go on from there: two recordings in one.
     """
-    config = config or Sync()
+    config = config or AlignerConfig()
     found = {"left": clean(left, config), "right": clean(right, config)}
     feet = {foot: _increasing(foot, found[foot]) for foot in FEET}
     grid = _grid(feet, config)
@@ -74,7 +74,7 @@ def _increasing(foot: str, found: Clean) -> ImuSeries:
     )
 
 
-def _grid(feet: Mapping[str, ImuSeries], config: Sync) -> IntArray:
+def _grid(feet: Mapping[str, ImuSeries], config: AlignerConfig) -> IntArray:
     if not all(len(series) for series in feet.values()):
         return np.empty(0, dtype=np.int64)
     if config.rate == 0:
@@ -86,7 +86,7 @@ def _grid(feet: Mapping[str, ImuSeries], config: Sync) -> IntArray:
     return grid[grid <= end + config.tolerance_ns]
 
 
-def _numbers(stamp_ns: IntArray, start: int, config: Sync) -> IntArray:
+def _numbers(stamp_ns: IntArray, start: int, config: AlignerConfig) -> IntArray:
     """Return the numbers of the grid stamps that can be within the runs between the holes."""
     cuts = np.flatnonzero(np.diff(stamp_ns) > config.max_gap_ns) + 1
     runs = [run for run in np.split(stamp_ns, cuts) if run[-1] >= start - config.tolerance_ns]

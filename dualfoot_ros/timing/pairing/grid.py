@@ -6,7 +6,7 @@ from collections import deque
 from typing import Protocol
 
 from ...core import FEET
-from .pairing_config import Sync
+from .pairing_config import AlignerConfig
 
 
 class Grid(Protocol):
@@ -22,7 +22,7 @@ class Grid(Protocol):
         """Drop the head, and all that is before ``until_ns``; return how many were dropped."""
 
 
-def grid_of(config: Sync) -> Grid:
+def grid_of(config: AlignerConfig) -> Grid:
     """Return the grid that ``config`` asks for."""
     return UniformGrid(config.rate) if config.rate > 0 else ReferenceGrid(config.reference)
 

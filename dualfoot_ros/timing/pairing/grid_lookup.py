@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import BoolArray, FloatArray, ImuSeries, IntArray
-from .pairing_config import Sync
+from .pairing_config import AlignerConfig
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class GridLookup:
     outside: BoolArray
 
     @classmethod
-    def of(cls, stamps: IntArray, grid: IntArray, config: Sync) -> GridLookup:
+    def of(cls, stamps: IntArray, grid: IntArray, config: AlignerConfig) -> GridLookup:
         """Place ``grid`` among increasing ``stamps``."""
         before = np.searchsorted(stamps, grid, side="right") - 1
         inside = (before >= 0) & (before + 1 < len(stamps))

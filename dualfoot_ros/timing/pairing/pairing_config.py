@@ -8,7 +8,7 @@ from ...core import ConfigError, Parameters, parameter
 
 
 @dataclass(frozen=True)
-class Sync(Parameters):
+class AlignerConfig(Parameters):
     """How two streams become pairs with equal stamps."""
 
     rate: float = parameter(

@@ -6,7 +6,7 @@ from collections import deque
 from typing import NamedTuple
 
 from ...core import FloatArray
-from .pairing_config import Sync
+from .pairing_config import AlignerConfig
 
 CAPACITY = 20_000  # samples a foot; never reached at sane rates
 
@@ -25,7 +25,7 @@ WAIT = BufferedSample(None, "wait")
 class SampleBuffer:
     """The recent samples of one foot, and its value at a time in between."""
 
-    def __init__(self, config: Sync) -> None:
+    def __init__(self, config: AlignerConfig) -> None:
         self._gap_ns, self._holds = config.max_gap_ns, config.holds
         self._tolerance_ns = config.tolerance_ns
         self._keep_ns = config.max_delay_ns

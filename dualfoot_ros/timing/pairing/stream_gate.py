@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core import ImuSeries, Refusal
-from .pairing_config import Sync
+from .pairing_config import AlignerConfig
 
 REFUSALS = (Refusal.NOT_FINITE, Refusal.DUPLICATE, Refusal.OUT_OF_ORDER)
 COUNTERS: tuple[str, ...] = ("accepted", *REFUSALS, Refusal.GAP)
@@ -22,7 +22,7 @@ class Gate:
     ``max_gap`` after the one before).
     """
 
-    def __init__(self, config: Sync) -> None:
+    def __init__(self, config: AlignerConfig) -> None:
         self._gap_ns = config.max_gap_ns
         self._tolerance_ns = config.tolerance_ns
         self._restart_after = config.restart_after
@@ -88,9 +88,9 @@ class Clean(NamedTuple):
     restart_at: int | None
 
 
-def clean(series: ImuSeries, config: Sync | None = None) -> Clean:
+def clean(series: ImuSeries, config: AlignerConfig | None = None) -> Clean:
     """Return the samples with increasing stamps and finite values, as the live aligner admits."""
-    config = config or Sync()
+    config = config or AlignerConfig()
     gate = Gate(config)
     values = np.hstack([series.specific_force, series.angular_rate])
     finite = np.asarray(np.isfinite(values).all(axis=1))

@@ -17,7 +17,7 @@ import numpy as np
 
 from ...core import FEET, FloatArray, ImuPair
 from .grid import grid_of
-from .pairing_config import Sync
+from .pairing_config import AlignerConfig
 from .sample_buffer import WAIT, BufferedSample, SampleBuffer
 from .stream_gate import Gate, all_finite
 
@@ -33,8 +33,8 @@ class Aligner:
     (dropped, a foot came too late), ``outside`` (dropped, only one foot was on) and ``restarts``.
     """
 
-    def __init__(self, config: Sync | None = None) -> None:
-        self.config = config or Sync()
+    def __init__(self, config: AlignerConfig | None = None) -> None:
+        self.config = config or AlignerConfig()
         self._gates = {foot: Gate(self.config) for foot in FEET}
         self._outcomes = dict.fromkeys(OUTCOMES, 0)
         self.reset()

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core.errors import ConfigError
-from dualfoot_ros.core.samples.mounting import Mounting, axes_matrix
+from dualfoot_ros.core.samples.mounting import MountingConfig, axes_matrix
 
 angles = st.floats(-6.2, 6.2)
 RIGHT_HANDED = ("x,y,z", "y,-x,z", "x,-y,-z", "-y,x,z", "z,x,y", "-z,-y,-x", "-x,-y,z")
@@ -16,7 +16,7 @@ RIGHT_HANDED = ("x,y,z", "y,-x,z", "x,-y,-z", "-y,x,z", "z,x,y", "-z,-y,-x", "-x
 @given(angles, angles, angles)
 def test_the_angles_are_about_fixed_axes_x_then_y_then_z(roll, pitch, yaw):
     expected = Rotation.from_euler("xyz", [roll, pitch, yaw]).as_matrix()
-    found = Mounting(roll=roll, pitch=pitch, yaw=yaw).rotation()
+    found = MountingConfig(roll=roll, pitch=pitch, yaw=yaw).rotation()
     np.testing.assert_allclose(found, expected, atol=1e-14)
 
 
@@ -35,7 +35,7 @@ def test_one_rotation_may_be_written_in_several_ways(axes):
 
 @given(st.sampled_from(RIGHT_HANDED), angles)
 def test_axes_are_named_anew_before_they_are_turned(axes, yaw):
-    found = np.array(Mounting(axes=axes, yaw=yaw).rotation())
+    found = np.array(MountingConfig(axes=axes, yaw=yaw).rotation())
     expected = Rotation.from_euler("z", yaw).as_matrix() @ np.array(axes_matrix(axes))
     np.testing.assert_allclose(found, expected, atol=1e-14)
 
@@ -53,5 +53,5 @@ def test_axes_are_named_anew_before_they_are_turned(axes, yaw):
 )
 def test_axes_that_cannot_be_are_refused_with_a_reason(axes, why):
     with pytest.raises(ConfigError, match=why) as refusal:
-        Mounting(axes=axes).rotation()
+        MountingConfig(axes=axes).rotation()
     assert f"'{axes}'" in str(refusal.value)

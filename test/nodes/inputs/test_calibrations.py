@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dualfoot_ros.calibration import Calibration, CalibrationError, SensorCalibration, Triad
-from dualfoot_ros.core import Mounting
+from dualfoot_ros.core import MountingConfig
 from dualfoot_ros.core.errors import DualFootError
 from dualfoot_ros.nodes.adapter.conversion import Conversion
 from dualfoot_ros.nodes.fusion import FusionNode
@@ -40,9 +40,9 @@ def test_the_adapter_corrects_with_the_calibration_of_its_foot(bench, both):
 def test_samples_are_corrected_in_si_and_in_the_axes_of_the_sensor_then_turned(yaw, unit):
     scale = 9.80665 if unit == "g" else 1.0
     triad = SensorCalibration(Triad(BIAS, MATRIX))
-    plain = Conversion(Mounting(yaw=yaw), UnitConfig(), CovarianceConfig())
+    plain = Conversion(MountingConfig(yaw=yaw), UnitConfig(), CovarianceConfig())
     whole = Conversion(
-        Mounting(yaw=yaw), UnitConfig(specific_force=unit), CovarianceConfig(), triad
+        MountingConfig(yaw=yaw), UnitConfig(specific_force=unit), CovarianceConfig(), triad
     )
     corrected = triad.values(STANDING)
     sent = np.concatenate([STANDING[:3] / scale, STANDING[3:]])

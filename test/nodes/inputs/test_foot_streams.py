@@ -11,7 +11,7 @@ from dualfoot_ros.nodes.ros.declared_parameters import declare
 from dualfoot_ros.nodes.ros.messages import imu_values
 from dualfoot_ros.nodes.ros.status import ERROR, FindingKind, Status
 from dualfoot_ros.settings import node_specs
-from dualfoot_ros.timing import Stamping
+from dualfoot_ros.timing import StampConfig
 
 from ..samples import STANDING, STEP_NS, imu
 
@@ -30,7 +30,7 @@ class Bench:
             declare(node, node_specs("time_sync")),
             self._read_sample,
             self.pairs.append,
-            stamping=stamping or Stamping(),
+            stamping=stamping or StampConfig(),
         )
 
     def _read_sample(self, foot, message, stamp_ns):
@@ -61,7 +61,7 @@ def test_equal_stamps_become_pairs_with_the_values_of_both_feet(feet):
 
 
 def test_samples_are_read_with_the_stamp_that_they_are_paired_by(bench):
-    feet = Bench(bench, Stamping(right_offset=-2.0))
+    feet = Bench(bench, StampConfig(right_offset=-2.0))
     feet.feed("left", 10**9)
     feet.feed("right", 3 * 10**9)
     assert feet.read == [("left", 10**9), ("right", 10**9)]
@@ -88,7 +88,7 @@ def test_a_reset_forgets_what_waits_for_the_other_foot(feet):
 
 
 def test_the_report_has_inputs_clocks_and_stamps(bench):
-    feet = Bench(bench, Stamping(left="device"), **{"input.silence": 0.1})
+    feet = Bench(bench, StampConfig(left="device"), **{"input.silence": 0.1})
     feet.feed("right", 10**9)
     bench.until(lambda: feet.status().level == ERROR, "silence")
     status = feet.status()

@@ -6,8 +6,8 @@ from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.inputs.stamper import Stamper
 from dualfoot_ros.nodes.ros.status import ERROR, OK, WARN, FindingKind, Status
 from dualfoot_ros.nodes.time_sync import TimeSyncNode
-from dualfoot_ros.simulation.arrivals import BleLink, arrivals
-from dualfoot_ros.timing import ClockModel, Stamping
+from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
+from dualfoot_ros.timing import DeviceClockConfig, StampConfig
 
 from ..samples import imu
 
@@ -17,7 +17,7 @@ HOUR_NS = 3600 * 10**9
 
 def fed(skew_ppm, seconds, **policies):
     """Return a stamper that was fed one foot with a clock an hour behind the host's."""
-    stamper = Stamper(Stamping(**policies), ClockModel())
+    stamper = Stamper(StampConfig(**policies), DeviceClockConfig())
     rate = 1.0 + 1e-6 * skew_ppm
     found = [
         stamper.stamp("left", round(k * STEP_NS * rate), HOUR_NS + k * STEP_NS)
@@ -62,7 +62,7 @@ def test_a_clock_that_is_being_learnt_is_said_to_be_and_its_samples_are_counted_
 
 
 def test_a_clock_that_is_learnt_for_too_long_is_said_to_have_another_unit():
-    stamper = Stamper(Stamping(left="device"), ClockModel())
+    stamper = Stamper(StampConfig(left="device"), DeviceClockConfig())
     for k in range(3000):
         assert stamper.stamp("left", k * STEP_NS // 1000, HOUR_NS + k * STEP_NS) is None
     status = described(stamper)
@@ -81,7 +81,7 @@ def test_a_skew_beyond_the_limit_is_reported_with_the_limit_and_no_stamp_is_give
 
 
 def test_a_time_that_no_message_can_hold_is_refused_and_counted():
-    stamper = Stamper(Stamping(), ClockModel())
+    stamper = Stamper(StampConfig(), DeviceClockConfig())
     assert stamper.stamp("left", -1, 0) is None
     assert stamper.stamp("left", 1 << 62, 0) is None
     assert stamper.counters == {"settling": 0, "not_stamped": 2}
@@ -89,7 +89,9 @@ def test_a_time_that_no_message_can_hold_is_refused_and_counted():
 
 
 def test_one_clock_for_both_feet_keeps_the_difference_of_their_links_out():
-    stamper = Stamper(Stamping(left="device", right="device", agreement="shared"), ClockModel())
+    stamper = Stamper(
+        StampConfig(left="device", right="device", agreement="shared"), DeviceClockConfig()
+    )
     for k in range(2000):
         left = stamper.stamp("left", k * STEP_NS, HOUR_NS + k * STEP_NS)
         right = stamper.stamp("right", k * STEP_NS, HOUR_NS + k * STEP_NS + 30_000_000)
@@ -129,7 +131,10 @@ def test_an_adapter_publishes_no_sample_before_the_clock_of_its_device_is_known(
 
 def test_a_device_in_step_with_its_link_is_warned_of():
     """100 ms from notification to notification, 25 ms from event to event: nothing ever slips."""
-    link, stamper = BleLink(interval=0.025), Stamper(Stamping(left="device"), ClockModel())
+    link, stamper = (
+        BleLinkConfig(interval=0.025),
+        Stamper(StampConfig(left="device"), DeviceClockConfig()),
+    )
     sampled = np.arange(3000) * STEP_NS
     arrived = HOUR_NS + arrivals(link, sampled, np.random.default_rng(1))
     for k, (sampled_ns, arrived_ns) in enumerate(zip(sampled, arrived, strict=True)):

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.simulation.arrivals import BleLink, arrivals
+from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
 from dualfoot_ros.timing.clock.connection_events import ConnectionEvents
 
 RATE = 100.0
@@ -32,7 +32,7 @@ def off_lattice(times, interval):
 
 @pytest.mark.parametrize("interval", [0.0163, 0.0224, 0.0375, 0.0451])
 def test_events_lie_on_one_lattice_though_arrivals_do_not(interval):
-    link = BleLink(interval=interval)
+    link = BleLinkConfig(interval=interval)
     events = ConnectionEvents(0.5, 240)
     found = feed(events, link)
     assert events.interval_s == pytest.approx(interval, rel=2e-5)
@@ -44,7 +44,7 @@ def test_events_lie_on_one_lattice_though_arrivals_do_not(interval):
 
 def test_samples_of_a_notification_may_be_read_one_after_the_other():
     """A host that hands over ten datagrams takes its time for each."""
-    link, rng = BleLink(interval=0.0375), np.random.default_rng(2)
+    link, rng = BleLinkConfig(interval=0.0375), np.random.default_rng(2)
     sampled = np.round(np.arange(3000) * 1e9 / RATE).astype(np.int64)
     arrived = arrivals(link, sampled, np.random.default_rng(1)) * 1e-9
     arrived += 0.0003 * (np.arange(3000) % link.burst) + rng.uniform(0.0, 1e-4, 3000)
@@ -86,19 +86,19 @@ def test_events_that_jump_by_half_an_interval_in_the_middle_are_found_after_that
 
 def test_an_interval_that_changes_is_lost_and_the_new_one_found():
     events = ConnectionEvents(0.5, 240)
-    feed(events, BleLink(interval=0.0451))
+    feed(events, BleLinkConfig(interval=0.0451))
     assert events.interval_s == pytest.approx(0.0451, rel=1e-4)
-    feed(events, BleLink(interval=0.0183), start=30.0, duration=40.0)
+    feed(events, BleLinkConfig(interval=0.0183), start=30.0, duration=40.0)
     assert events.interval_s == pytest.approx(0.0183, rel=1e-4)
 
 
 def test_memory_does_not_grow():
     events = ConnectionEvents(0.5, 20)
-    feed(events, BleLink(), 60.0)
+    feed(events, BleLinkConfig(), 60.0)
     tracemalloc.start()
-    feed(events, BleLink(), 60.0, start=60.0)
+    feed(events, BleLinkConfig(), 60.0, start=60.0)
     before = tracemalloc.get_traced_memory()[0]
-    feed(events, BleLink(), 120.0, start=120.0)
+    feed(events, BleLinkConfig(), 120.0, start=120.0)
     after = tracemalloc.get_traced_memory()[0]
     tracemalloc.stop()
     assert after - before < 20_000
@@ -111,7 +111,7 @@ def test_memory_does_not_grow():
 )
 def test_no_times_raise(wild, seed):
     events = ConnectionEvents(0.5, 20)
-    feed(events, BleLink(), 12.0, seed=seed)
+    feed(events, BleLinkConfig(), 12.0, seed=seed)
     for time, arrived in wild:
         for found in events.add(time, arrived):
             assert np.isfinite(found.arrival_s)

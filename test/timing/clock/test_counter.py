@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dualfoot_ros.timing import Counter, Unwrapper
+from dualfoot_ros.timing import CounterConfig, Unwrapper
 
 SECOND = 1_000_000_000
 KINDS = [("16", 1e3), ("32", 1e6), ("32", 32768.0), ("64", 1e6), ("64", 1e9)]
@@ -26,7 +26,7 @@ def feed(unwrapper, counts, arrivals=None):
 )
 def test_a_wrap_at_any_position_changes_no_difference(kind, start, steps, with_arrivals):
     bits, rate = kind
-    config = Counter(bits=bits, rate=rate)
+    config = CounterConfig(bits=bits, rate=rate)
     first = int(start * config.range)
     total = [first]
     for step in steps:
@@ -43,14 +43,14 @@ def test_a_wrap_at_any_position_changes_no_difference(kind, start, steps, with_a
 @given(position=st.integers(-200, 200))
 def test_the_last_microsecond_before_a_wrap_is_one_before_zero(position):
     edge = 1 << 32
-    unwrapper = Unwrapper(Counter(bits="32"))
+    unwrapper = Unwrapper(CounterConfig(bits="32"))
     counts = [(edge + position + k) % edge for k in range(3)]
     found = feed(unwrapper, counts)
     assert [b - a for a, b in pairwise(found)] == [1000, 1000]
 
 
 def test_ticks_of_a_watch_crystal_do_not_drift_in_half_a_day():
-    unwrapper = Unwrapper(Counter(bits="32", rate=32768.0, max_gap=1e6))
+    unwrapper = Unwrapper(CounterConfig(bits="32", rate=32768.0, max_gap=1e6))
     unwrapper.time_ns(0)
     half = 43_200
     assert unwrapper.time_ns(half * 32768) == half * SECOND
@@ -58,7 +58,7 @@ def test_ticks_of_a_watch_crystal_do_not_drift_in_half_a_day():
 
 def test_whole_turns_during_a_gap_are_found_from_the_arrivals():
     turn_ns = 65_536_000_000  # 16 bits of milliseconds
-    unwrapper = Unwrapper(Counter(bits="16", rate=1e3))
+    unwrapper = Unwrapper(CounterConfig(bits="16", rate=1e3))
     unwrapper.time_ns(65_000, 0)
     gap_ns = 3 * turn_ns + 700_000_000
     found = unwrapper.time_ns((65_000 + gap_ns // 1_000_000) % 65_536, gap_ns + 40_000_000)
@@ -67,7 +67,7 @@ def test_whole_turns_during_a_gap_are_found_from_the_arrivals():
 
 
 def test_a_device_that_starts_again_at_zero_begins_a_new_epoch():
-    unwrapper = Unwrapper(Counter(bits="32"))
+    unwrapper = Unwrapper(CounterConfig(bits="32"))
     feed(unwrapper, [1_200_000_000, 1_200_010_000], [0, 10_000_000])
     assert unwrapper.time_ns(5_000, 3 * SECOND) == 5_000_000
     assert unwrapper.epoch == 1
@@ -75,7 +75,7 @@ def test_a_device_that_starts_again_at_zero_begins_a_new_epoch():
 
 
 def test_a_count_far_ahead_of_the_host_is_a_jump():
-    unwrapper = Unwrapper(Counter(bits="64"))
+    unwrapper = Unwrapper(CounterConfig(bits="64"))
     feed(unwrapper, [0, 10_000], [0, 10_000_000])
     unwrapper.time_ns(3_600_000_000, 20_000_000)
     assert unwrapper.epoch == 1
@@ -83,14 +83,14 @@ def test_a_count_far_ahead_of_the_host_is_a_jump():
 
 
 def test_without_arrivals_a_step_longer_than_the_gap_is_no_step():
-    unwrapper = Unwrapper(Counter(bits="64", max_gap=10.0))
+    unwrapper = Unwrapper(CounterConfig(bits="64", max_gap=10.0))
     feed(unwrapper, [50_000_000, 50_010_000])
     assert unwrapper.time_ns(20) == 20_000
     assert unwrapper.counters["restarts"] == 1
 
 
 def test_a_link_that_stalls_for_long_and_then_delivers_all_is_no_restart():
-    unwrapper = Unwrapper(Counter(bits="32"))
+    unwrapper = Unwrapper(CounterConfig(bits="32"))
     counts = [k * 10_000 for k in range(1000)]
     arrivals = [
         k * 10_000_000 if k < 100 else max(8 * SECOND, k * 10_000_000) for k in range(1000)
@@ -117,4 +117,4 @@ def test_nothing_a_device_sends_raises(counts, with_arrivals):
 @pytest.mark.parametrize("bits", ["8", "24"])
 def test_other_widths_are_refused_by_name(bits):
     with pytest.raises(Exception, match=f"bits.*{bits}.*16, 32, 64"):
-        Counter(bits=bits)
+        CounterConfig(bits=bits)

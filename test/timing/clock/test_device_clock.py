@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.simulation.arrivals import BleLink, arrivals
-from dualfoot_ros.timing import ClockModel, DeviceClock
+from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
+from dualfoot_ros.timing import DeviceClock, DeviceClockConfig
 from dualfoot_ros.timing.clock.state import PHASES
 
 START = 1_750_000_000_000_000_000
 SECOND = 1_000_000_000
-LINK = BleLink(interval=0.0371)
+LINK = BleLinkConfig(interval=0.0371)
 
 
 def recording(drift=0.0, offset=0.0, rate=100.0, duration=40.0, link=LINK, seed=0):
@@ -74,7 +74,7 @@ def in_step(seed):
     """
     rng = np.random.default_rng(seed)
     intervals = int(rng.integers(4, 15)) / 2.0
-    link = BleLink(interval=0.1 / intervals * (1.0 + float(rng.normal(0.0, 1e-3))))
+    link = BleLinkConfig(interval=0.1 / intervals * (1.0 + float(rng.normal(0.0, 1e-3))))
     true, device, arrived = recording(float(rng.uniform(-200.0, 200.0)), 5.0, link=link, seed=seed)
     clock = DeviceClock()
     follow(clock, device, arrived)
@@ -101,7 +101,7 @@ def test_in_step_with_the_link_the_uncertainty_contains_the_error():
     seed=st.integers(0, 10_000),
 )
 def test_host_time_is_strictly_increasing_from_the_first_stamp_on(drift, interval, burst, seed):
-    link = BleLink(interval=interval, burst=burst)
+    link = BleLinkConfig(interval=interval, burst=burst)
     _, device, arrived = recording(drift, 17.0, duration=15.0, link=link, seed=seed)
     clock = DeviceClock()
     found = [f for f in follow(clock, device, arrived) if f is not None]
@@ -121,7 +121,7 @@ def test_a_shift_of_either_clock_shifts_the_result_and_nothing_else(shift, devic
 
 def test_while_tracking_the_rate_is_never_off_by_more_than_the_stated_slew():
     true, device, arrived = recording(250.0, duration=60.0)
-    config = ClockModel(max_slew=500.0)
+    config = DeviceClockConfig(max_slew=500.0)
     found = np.array(follow(DeviceClock(config), device, arrived))[true - START > 20 * SECOND]
     rate = np.diff(found) / 1e7 * 1e6 - 1e6
     assert np.abs(rate + 250.0).max() < 500.0 + 60.0  # the estimate of the skew moves too
@@ -138,7 +138,7 @@ def test_the_first_seconds_are_sensible():
 
 
 def test_a_perfect_link_is_followed_to_microseconds():
-    link = BleLink(burst=1, handling=0.0, failure=0.0, stall=0.0, tail_share=0.0)
+    link = BleLinkConfig(burst=1, handling=0.0, failure=0.0, stall=0.0, tail_share=0.0)
     true, device, _ = recording(-700.0, 5.0, link=link)
     found = follow(DeviceClock(), device, true + 2_000_000)
     late = true - START > 20 * SECOND
@@ -149,7 +149,7 @@ def test_a_perfect_link_is_followed_to_microseconds():
 def test_a_known_least_delay_is_taken_off():
     _, device, arrived = recording()
     plain = follow(DeviceClock(), device, arrived)
-    less = follow(DeviceClock(ClockModel(delay=0.004)), device, arrived)
+    less = follow(DeviceClock(DeviceClockConfig(delay=0.004)), device, arrived)
     assert less[-1] is not None
     assert plain == [None if q is None else q + 4_000_000 for q in less]
 
@@ -251,7 +251,7 @@ def test_late_samples_get_the_time_they_would_have_got():
 
 
 def test_memory_does_not_grow():
-    clock = DeviceClock(ClockModel(horizon=10.0))
+    clock = DeviceClock(DeviceClockConfig(horizon=10.0))
     _, device, arrived = recording(duration=120.0)
     follow(clock, device[:3000], arrived[:3000])
     tracemalloc.start()
@@ -277,7 +277,7 @@ def test_no_stamps_raise(pairs):
 @settings(max_examples=12, deadline=None)
 @given(
     link=st.builds(
-        BleLink,
+        BleLinkConfig,
         interval=st.floats(0.0075, 0.06),
         burst=st.integers(1, 20),
         failure=st.floats(0.0, 0.5),

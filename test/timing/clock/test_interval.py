@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.simulation.arrivals import BleLink, arrivals
+from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
 from dualfoot_ros.timing.clock.interval import find_interval, own_period
 
 NOTIFICATIONS = 65
@@ -23,7 +23,7 @@ def notifications(link, rate=100.0, seed=0):
 def test_the_interval_of_most_bluetooth_links_is_found_and_hardly_ever_another(burst):
     right, wrong = 0, 0
     for seed, interval in enumerate(np.linspace(0.0152, 0.047, 40)):
-        link = BleLink(interval=float(interval), burst=burst)
+        link = BleLinkConfig(interval=float(interval), burst=burst)
         found = find_interval(*notifications(link, 100.0, seed))
         right += found is not None and abs(found - interval) < 1e-3 * interval
         wrong += found is not None and abs(found - interval) > 1e-3 * interval
@@ -49,7 +49,7 @@ def test_a_device_that_keeps_the_time_itself_has_none(rate, burst, jitter, loss,
 
 def test_several_notifications_an_event_tell_nothing():
     """Their waits are shorter than the interval, which would be taken for something else."""
-    assert find_interval(*notifications(BleLink(interval=0.0317, burst=1), 200.0)) is None
+    assert find_interval(*notifications(BleLinkConfig(interval=0.0317, burst=1), 200.0)) is None
 
 
 def test_a_host_that_polls_is_such_a_link_too():

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.simulation.arrivals import BleLink
-from dualfoot_ros.timing import ClockModel, DeviceClock
+from dualfoot_ros.simulation.arrivals import BleLinkConfig
+from dualfoot_ros.timing import DeviceClock, DeviceClockConfig
 
 from .test_device_clock import START, errors_ms, follow, recording
 
@@ -23,7 +23,7 @@ def begin(found):
 def bursts(seed):
     """Return a Bluetooth link of a random interval."""
     rng = np.random.default_rng(seed)
-    return BleLink(interval=float(rng.uniform(0.015, 0.05)), burst=int(rng.integers(1, 13)))
+    return BleLinkConfig(interval=float(rng.uniform(0.015, 0.05)), burst=int(rng.integers(1, 13)))
 
 
 def first_second_ms(drift, link, seed):
@@ -62,7 +62,7 @@ def test_a_wired_link_loses_less_than_three_seconds_and_starts_right(drift, jitt
     arrived = np.maximum.accumulate(true + np.round(delay).astype(np.int64))
     found = follow(DeviceClock(), device, arrived)
     first = begin(found)
-    error = errors_ms(found, true, BleLink(least=0.0))[first:]
+    error = errors_ms(found, true, BleLinkConfig(least=0.0))[first:]
     assert 1.0 <= first / RATE <= 3.0
     assert np.abs(error).max() < 5.0
 
@@ -70,7 +70,7 @@ def test_a_wired_link_loses_less_than_three_seconds_and_starts_right(drift, jitt
 @settings(max_examples=10, deadline=None)
 @given(drift=drifts, seed=seeds)
 def test_a_bad_link_is_not_waited_for_for_ever(drift, seed):
-    link = BleLink(burst=20, failure=0.3, stall_period=1.0)
+    link = BleLinkConfig(burst=20, failure=0.3, stall_period=1.0)
     _, device, arrived = recording(drift, duration=15.0, link=link, seed=seed)
     clock = DeviceClock()
     found = follow(clock, device, arrived)
@@ -86,7 +86,7 @@ def test_a_bad_link_is_not_waited_for_for_ever(drift, seed):
     seed=seeds,
 )
 def test_a_clock_that_is_refused_never_stamps_a_sample(drift, sign, burst, seed):
-    link = BleLink(interval=0.0371, burst=max(burst, 1))
+    link = BleLinkConfig(interval=0.0371, burst=max(burst, 1))
     true, device, arrived = recording(sign * drift, 70.0, duration=10.0, link=link, seed=seed)
     clock = DeviceClock()
     found = follow(clock, device, arrived if burst else true + 1_000_000)
@@ -105,7 +105,7 @@ def test_stamps_in_another_unit_are_never_taken(rate):
 def test_the_limit_on_the_skew_decides_what_is_stamped():
     true, device, _ = recording(5000.0, duration=8.0)
     assert follow(DeviceClock(), device, true)[-1] is not None
-    assert set(follow(DeviceClock(ClockModel(max_skew=3000.0)), device, true)) == {None}
+    assert set(follow(DeviceClock(DeviceClockConfig(max_skew=3000.0)), device, true)) == {None}
 
 
 def test_after_a_restart_in_a_walk_stamps_go_on_with_the_first_samples_of_the_new_epoch():
@@ -144,16 +144,18 @@ def test_an_offset_that_is_asked_for_too_exactly_is_waited_for_as_long_as_settle
     true, device, _ = recording(30.0, duration=8.0)
     begins = {}
     for settle in (2.0, 4.0, 6.0):
-        clock = DeviceClock(ClockModel(tracking_std=1e-6, settle=settle))
+        clock = DeviceClock(DeviceClockConfig(tracking_std=1e-6, settle=settle))
         begins[settle] = begin(follow(clock, device, true)) / RATE
     for settle, found in begins.items():
         assert settle <= found <= settle + 1.0
 
 
 def test_stamping_begins_the_sooner_the_less_exact_the_offset_need_be():
-    _, device, arrived = recording(30.0, duration=12.0, link=BleLink(burst=10))
+    _, device, arrived = recording(30.0, duration=12.0, link=BleLinkConfig(burst=10))
     begins = [
-        begin(follow(DeviceClock(ClockModel(tracking_std=std, settle=9.0)), device, arrived))
+        begin(
+            follow(DeviceClock(DeviceClockConfig(tracking_std=std, settle=9.0)), device, arrived)
+        )
         for std in (0.05, 0.005, 0.0005)
     ]
     assert begins == sorted(begins) and begins[0] < begins[-1]

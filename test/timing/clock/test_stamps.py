@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core.errors import ConfigError
-from dualfoot_ros.simulation.arrivals import BleLink, arrivals
-from dualfoot_ros.timing import Stamping, Stamps
+from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
+from dualfoot_ros.timing import StampConfig, Stamps
 
 
 def test_headers_pass_untouched_by_default():
@@ -15,14 +15,14 @@ def test_headers_pass_untouched_by_default():
 
 
 def test_arrival_and_a_fixed_offset():
-    stamps = Stamps(Stamping(left="arrival", right_offset=-1.5))
+    stamps = Stamps(StampConfig(left="arrival", right_offset=-1.5))
     assert stamps.stamp("left", 12345, 99) == 99
     assert stamps.stamp("right", 2_000_000_000, 7) == 500_000_000
 
 
 def test_another_policy_is_refused_by_name():
     with pytest.raises(ConfigError, match=r"left.*'guess'.*header, device, arrival"):
-        Stamping(left="guess")
+        StampConfig(left="guess")
 
 
 def test_devices_with_clocks_of_their_own_agree_on_the_host():
@@ -41,9 +41,9 @@ def test_devices_that_share_a_clock_keep_their_offset_whatever_the_links_do():
 
 
 def test_feet_that_share_a_clock_begin_together_though_one_link_is_slow():
-    stamps = Stamps(Stamping(left="device", right="device", agreement="shared"))
+    stamps = Stamps(StampConfig(left="device", right="device", agreement="shared"))
     slow = arrivals(
-        BleLink(interval=0.05, burst=20), np.arange(800) * 10**7, np.random.default_rng(0)
+        BleLinkConfig(interval=0.05, burst=20), np.arange(800) * 10**7, np.random.default_rng(0)
     )
     calls = [(k * 10**7 + 10**6, k, "left") for k in range(800)]
     calls += [(int(a), k, "right") for k, a in enumerate(slow)]
@@ -57,13 +57,13 @@ def test_feet_that_share_a_clock_begin_together_though_one_link_is_slow():
 
 def relative_error_ms(agreement, left, right):
     """Return the offset (N,) between the feet after 20 s; each foot has drift and least delay."""
-    stamps = Stamps(Stamping(left="device", right="device", agreement=agreement))
+    stamps = Stamps(StampConfig(left="device", right="device", agreement=agreement))
     true = np.round(np.arange(4000) * 1e7).astype(np.int64)
     feet = {"left": left, "right": right}
     calls = []
     for k, (foot, (drift, least)) in enumerate(feet.items()):
         device = np.round(true * (1.0 + 1e-6 * drift)).astype(np.int64)
-        link = BleLink(interval=0.0371, least=least)
+        link = BleLinkConfig(interval=0.0371, least=least)
         arrived = arrivals(link, true, np.random.default_rng(k))
         calls += [
             (int(a), int(d), i, foot) for i, (d, a) in enumerate(zip(device, arrived, strict=True))

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dualfoot_ros.core import ConfigError, ImuSeries
-from dualfoot_ros.timing import Sync, TimingError, align, align_with_report
+from dualfoot_ros.timing import AlignerConfig, TimingError, align, align_with_report
 
 MS = 1_000_000
 
@@ -28,7 +28,7 @@ rates = st.sampled_from([0.0, 37.0, 60.0, 100.0, 200.0])
 @given(intervals, intervals, starts, rates)
 def test_both_feet_have_equal_increasing_stamps(a, b, start, rate):
     left, right = align(
-        series(np.cumsum(a)), series(start + np.cumsum(b)), Sync(rate=rate, max_gap=0.05)
+        series(np.cumsum(a)), series(start + np.cumsum(b)), AlignerConfig(rate=rate, max_gap=0.05)
     )
     assert np.array_equal(left.stamp_ns, right.stamp_ns)
     assert (np.diff(left.stamp_ns) > 0).all()
@@ -36,7 +36,7 @@ def test_both_feet_have_equal_increasing_stamps(a, b, start, rate):
 
 @given(intervals, intervals, starts, rates, st.sampled_from(["left", "right"]))
 def test_signals_linear_in_time_come_out_exact(a, b, start, rate, reference):
-    config = Sync(rate=rate, tolerance=0.0, reference=reference)
+    config = AlignerConfig(rate=rate, tolerance=0.0, reference=reference)
     aligned = align(series(np.cumsum(a)), series(start + np.cumsum(b)), config)
     for foot in aligned:
         true = series(foot.stamp_ns)
@@ -51,7 +51,7 @@ def test_signals_linear_in_time_come_out_exact(a, b, start, rate, reference):
 )
 def test_no_pair_is_invented_inside_a_gap(a, b, rate):
     left, right = series(np.cumsum(a)), series(np.cumsum(b))
-    config = Sync(rate=rate, max_gap=0.05)
+    config = AlignerConfig(rate=rate, max_gap=0.05)
     grid = align(left, right, config)[0].stamp_ns
     for foot in (left, right):
         holes = np.flatnonzero(np.diff(foot.stamp_ns) > config.max_gap_ns)
@@ -64,7 +64,7 @@ def test_no_pair_is_invented_inside_a_gap(a, b, rate):
 def test_nothing_lies_outside_the_time_both_feet_were_on(a, rate):
     left = series(np.cumsum(a))
     right = left[len(left) // 3 : -1] if len(left) > 4 else left
-    grid = align(left, right, Sync(rate=rate))[0].stamp_ns
+    grid = align(left, right, AlignerConfig(rate=rate))[0].stamp_ns
     assert (grid >= right.stamp_ns[0]).all()
     assert (grid <= right.stamp_ns[-1] + 1000).all()
 
@@ -89,7 +89,7 @@ def test_the_samples_of_the_reference_foot_are_not_touched(reference):
         "left": series(np.arange(100) * 16_667_000, rng.normal(size=(100, 3))),
         "right": series(np.arange(100) * 16_667_000 + 8 * MS, rng.normal(size=(100, 3))),
     }
-    left, right = align(feet["left"], feet["right"], Sync(reference=reference))
+    left, right = align(feet["left"], feet["right"], AlignerConfig(reference=reference))
     kept = {"left": left, "right": right}[reference]
     shared = np.isin(feet[reference].stamp_ns, kept.stamp_ns)
     assert shared.sum() == 99
@@ -99,7 +99,7 @@ def test_the_samples_of_the_reference_foot_are_not_touched(reference):
 def test_a_uniform_grid_has_the_rate_asked_for_and_starts_where_both_feet_are_on():
     left = series(np.arange(400) * 5 * MS)
     right = series(13 * MS + np.arange(400) * 5_010_000)
-    grid = align(left, right, Sync(rate=60.0))[0].stamp_ns
+    grid = align(left, right, AlignerConfig(rate=60.0))[0].stamp_ns
     assert grid[0] == 13 * MS
     assert np.array_equal(grid, 13 * MS + np.rint(np.arange(len(grid)) * 1e9 / 60).astype(int))
 
@@ -123,7 +123,7 @@ def test_duplicates_disorder_and_values_that_are_not_finite_are_counted_and_left
 @given(intervals, intervals, starts)
 def test_held_values_are_those_of_the_last_sample_before(a, b, start):
     left, right = series(np.cumsum(a)), series(start + np.cumsum(b))
-    held = align(left, right, Sync(between="hold", tolerance=0.0))[1]
+    held = align(left, right, AlignerConfig(between="hold", tolerance=0.0))[1]
     last = np.searchsorted(right.stamp_ns, held.stamp_ns, side="right") - 1
     assert np.array_equal(held.specific_force, right.specific_force[last])
     assert np.array_equal(held.angular_rate, right.angular_rate[last])
@@ -155,7 +155,7 @@ def test_feet_never_on_at_the_same_time_give_empty_series_and_a_negative_overlap
 
 @pytest.mark.parametrize("rate", [0.0, 100.0])
 def test_an_empty_foot_gives_empty_series(rate):
-    left, right, _ = align_with_report(series([]), series([1, 2 * MS]), Sync(rate=rate))
+    left, right, _ = align_with_report(series([]), series([1, 2 * MS]), AlignerConfig(rate=rate))
     assert len(left) == len(right) == 0
 
 
@@ -172,4 +172,4 @@ def test_the_magnetic_field_is_interpolated_with_the_rest():
 
 def test_a_delay_shorter_than_the_gap_is_refused_by_name():
     with pytest.raises(ConfigError, match=r"'max_delay' is 0.02; allowed is at least 'max_gap'"):
-        Sync(max_gap=0.05, max_delay=0.02)
+        AlignerConfig(max_gap=0.05, max_delay=0.02)

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from dualfoot_ros.core import ImuSeries
 from dualfoot_ros.core.samples.series import stack_pairs
-from dualfoot_ros.timing import Aligner, Sync, align_with_report
+from dualfoot_ros.timing import Aligner, AlignerConfig, align_with_report
 
 MS = 1_000_000
 SAMPLE = np.arange(6.0)
@@ -56,7 +56,7 @@ def test_streaming_and_batch_give_the_same_pairs_to_the_bit(
     a, b, rate, reference, between, late, seed
 ):
     left, right = noisy(np.cumsum(a) + 10**9, seed), noisy(np.cumsum(b) + 10**9, seed + 1)
-    config = Sync(rate=rate, reference=reference, between=between, restart_after=1000)
+    config = AlignerConfig(rate=rate, reference=reference, between=between, restart_after=1000)
     aligner, pairs = stream(config, arrivals(left, right, {"right": late}))
     batch_left, batch_right, report = align_with_report(left, right, config)
     assert [p.stamp_ns for p in pairs] == batch_left.stamp_ns.tolist()
@@ -69,7 +69,7 @@ def test_streaming_and_batch_give_the_same_pairs_to_the_bit(
 @given(st.lists(st.tuples(st.booleans(), st.integers(0, 2**62)), max_size=200), rates)
 def test_any_stamps_in_any_order_give_increasing_pairs_and_no_exception(samples, rate):
     aligner, pairs = stream(
-        Sync(rate=rate, restart_after=1000),
+        AlignerConfig(rate=rate, restart_after=1000),
         (("left" if is_left else "right", stamp, SAMPLE) for is_left, stamp in samples),
     )
     stamps = [p.stamp_ns for p in pairs]
@@ -84,7 +84,7 @@ def test_any_stamps_in_any_order_give_increasing_pairs_and_no_exception(samples,
 
 
 def test_a_silent_foot_delays_nothing_beyond_the_stated_time_and_is_counted():
-    config = Sync(max_gap=0.05, max_delay=0.1)
+    config = AlignerConfig(max_gap=0.05, max_delay=0.1)
     aligner = Aligner(config)
     for k in range(10):
         aligner.push("left", k * 10 * MS, SAMPLE)
@@ -100,7 +100,7 @@ def test_a_foot_late_by_less_than_the_delay_loses_no_pair():
     stamps = np.arange(300) * 10 * MS
     left, right = noisy(stamps, 0), noisy(stamps + 3 * MS, 1)
     left.specific_force[:] = right.specific_force[:] = 1.0
-    aligner, pairs = stream(Sync(), arrivals(left, right, {"left": 90 * MS}))
+    aligner, pairs = stream(AlignerConfig(), arrivals(left, right, {"left": 90 * MS}))
     assert len(pairs) == 299
     assert aligner.counters["late"] == aligner.counters["in_gap"] == 0
 
@@ -118,7 +118,7 @@ def test_feet_that_are_in_time_never_wait_however_long_a_late_one_would_be_waite
 ):
     left, right = noisy(np.cumsum(a), 0), noisy(np.cumsum(b), 1)
     samples = list(arrivals(left, right, {"right": late}))
-    short, long = (Aligner(Sync(rate=rate, max_delay=d)) for d in (0.25, max_delay))
+    short, long = (Aligner(AlignerConfig(rate=rate, max_delay=d)) for d in (0.25, max_delay))
     for sample in samples:
         found = [[p.stamp_ns for p in each.push(*sample)] for each in (short, long)]
         assert found[0] == found[1]
@@ -137,14 +137,14 @@ def test_by_default_a_foot_that_is_held_up_for_most_of_a_second_loses_nothing():
 
 
 def test_the_memory_of_an_aligner_does_not_grow_while_one_foot_is_silent():
-    aligner = Aligner(Sync(max_delay=0.25))
+    aligner = Aligner(AlignerConfig(max_delay=0.25))
     for k in range(5000):
         aligner.push("right", k * 5 * MS, SAMPLE)
     assert len(aligner._buffers["right"].samples) < 60
 
 
 def test_a_stream_that_begins_anew_is_taken_up_again_and_counted():
-    aligner = Aligner(Sync(restart_after=10))
+    aligner = Aligner(AlignerConfig(restart_after=10))
     for k in list(range(100)) + list(range(100)):
         for foot in ("left", "right"):
             pairs = aligner.push(foot, k * 10 * MS, SAMPLE)
@@ -153,7 +153,7 @@ def test_a_stream_that_begins_anew_is_taken_up_again_and_counted():
 
 
 def test_one_stamp_far_in_the_future_does_not_silence_a_foot_for_good():
-    aligner = Aligner(Sync())
+    aligner = Aligner(AlignerConfig())
     for k in range(200):
         aligner.push("left", k * 10 * MS, SAMPLE)
         pairs = aligner.push("right", 10**18 if k == 50 else k * 10 * MS, SAMPLE)
@@ -162,7 +162,7 @@ def test_one_stamp_far_in_the_future_does_not_silence_a_foot_for_good():
 
 
 def test_a_hole_of_hours_on_a_uniform_grid_is_jumped_at_once():
-    aligner = Aligner(Sync(rate=200.0))
+    aligner = Aligner(AlignerConfig(rate=200.0))
     hours = 10 * 3600 * 10**9
     for start in (0, hours):
         for k in range(100):

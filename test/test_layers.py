@@ -4,6 +4,7 @@ import ast
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from importlib import import_module
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parents[1] / "dualfoot_ros"
@@ -262,3 +263,12 @@ def test_the_walk_sees_relative_and_absolute_imports_at_any_depth():
     assert "rosbags.rosbag2" not in early
     assert target("dualfoot_ros.recording.read") == "recording"
     assert target("dualfoot_ros.settings.presets") == "settings"
+
+
+def test_every_name_that_a_face_promises_is_there():
+    for path in MODULES:
+        if path.name == "__init__.py":
+            module = import_module(module_name(path))
+            promised = getattr(module, "__all__", ())
+            assert [name for name in promised if not hasattr(module, name)] == [], path
+            assert len(promised) == len(set(promised)), path

@@ -75,7 +75,7 @@ __all__ = [
     "IntArray",
     "Matrix",
     "MountingConfig",
-    "Noise",
+    "NoiseConfig",
     "ParameterSpec",
     "Parameters",
     "Passing",

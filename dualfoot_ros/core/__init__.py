@@ -54,7 +54,7 @@ __all__ = [
     "METHODS",
     "RATE_UNITS",
     "STANDARD_GRAVITY",
-    "Alignment",
+    "AlignmentConfig",
     "AlignmentError",
     "BoolArray",
     "CalibrationError",

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..core import FEET, CalibrationError, ImuSeries
+from ..core import FEET, FORWARD_LEFT_UP, CalibrationError, ImuSeries
 from ..recording import Topics, read_bag
 from ..recording.importers import read_sensor
-from ..recording.importers.axes import IDENTITY
 from .file import ANY
 
 EXPORT = ".csv"
@@ -19,7 +18,7 @@ def load_sources(
     paths: Sequence[Path],
     foot: str | None = None,
     *,
-    axes: str = IDENTITY,
+    axes: str = FORWARD_LEFT_UP,
     topics: Topics | None = None,
 ) -> dict[str, list[Named]]:
     """Return the recordings by sensor: "left", "right", or "sensor" where no foot is known.
@@ -50,7 +49,7 @@ def load_sources(
 def _load(path: Path, foot: str | None, axes: str, topics: Topics | None) -> list[Named]:
     if path.suffix.lower() == EXPORT:
         return [(foot or ANY, read_sensor(path, axes))]
-    if axes != IDENTITY:
+    if axes != FORWARD_LEFT_UP:
         raise CalibrationError(
             f"'{path}' is a bag, whose axes are forward-left-up already; --axes is for exports"
         )

@@ -7,12 +7,18 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from ..core import FEET, FORCE_UNITS, RATE_UNITS, PressureSeries, RecordingError
+from ..core import (
+    FEET,
+    FORCE_UNITS,
+    FORWARD_LEFT_UP,
+    RATE_UNITS,
+    PressureSeries,
+    RecordingError,
+)
 from ..core.aids import WORN
 from ..inspection import findings_of
 from ..recording import METADATA, STORAGES, Recording, check_target, write_bag
 from ..recording.importers import FORMATS, ImportOptions, import_recording, read_pressure
-from ..recording.importers.axes import IDENTITY
 from .progress import progress
 
 HELP = "turn sensor exports and data sets into a bag"
@@ -47,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         )
     parser.add_argument(
         "--axes",
-        default=IDENTITY,
+        default=FORWARD_LEFT_UP,
         metavar="AXES",
         help="device axes that point forward, left and up, written --axes=+x+y+z "
         "(default: %(default)s; not for dual-feet)",

@@ -21,7 +21,16 @@ from .results.events import FEET, Event, EventKind
 from .results.rows import clean_stance, to_trajectory, turn_rows
 from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stance_middles
 from .results.update import FootEstimate, PedestrianEstimate, Update, quaternion_yaw
-from .samples.mounting import IDENTITY, Matrix, Mounting, Vector, axes_matrix, dot
+from .samples.mounting import (
+    FORWARD_LEFT_UP,
+    IDENTITY,
+    RIGHT_FRONT_UP,
+    Matrix,
+    Mounting,
+    Vector,
+    axes_matrix,
+    dot,
+)
 from .samples.series import (
     BoolArray,
     FieldSeries,
@@ -39,10 +48,12 @@ __all__ = [
     "DEGREE",
     "FEET",
     "FORCE_UNITS",
+    "FORWARD_LEFT_UP",
     "GROUPS",
     "IDENTITY",
     "METHODS",
     "RATE_UNITS",
+    "RIGHT_FRONT_UP",
     "STANDARD_GRAVITY",
     "Alignment",
     "AlignmentError",

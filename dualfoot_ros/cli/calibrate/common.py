@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...core import FEET
+from ...core import FEET, FORWARD_LEFT_UP
 from ..arguments import add_topic_arguments
 from ..progress import progress
 
@@ -41,7 +41,7 @@ def add_sensor_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--axes",
-        default="+x+y+z",
+        default=FORWARD_LEFT_UP,
         metavar="AXES",
         help="device axes that point forward, left and up, as in 'dualfoot import' "
         "(exports only; default: %(default)s)",

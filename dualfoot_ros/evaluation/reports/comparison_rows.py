@@ -5,11 +5,12 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..batch.comparison import Entry
+if TYPE_CHECKING:
+    from ..batch import Entry
 
 Figure = float | None
 

@@ -5,11 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from ...core import FEET, FORCE_UNITS, RATE_UNITS, FloatArray, ImuSeries, RecordingError
+import numpy as np
+
+from ...core import (
+    FEET,
+    FORCE_UNITS,
+    RATE_UNITS,
+    FloatArray,
+    ImuSeries,
+    RecordingError,
+    axes_matrix,
+)
 from ..read import read_bag
 from ..recording import Recording
 from ..topics import Topics
-from . import axes
 from .options import ImportOptions
 
 
@@ -25,7 +34,7 @@ def load(options: ImportOptions) -> Recording:
     """
     if len(options.sources) != 1 or options.left or options.right:
         raise RecordingError("a bag holds both feet; give exactly one, without --left and --right")
-    rotation = axes.parse(options.axes)
+    rotation = np.array(axes_matrix(options.axes))
     force = _scale("force unit", options.force_unit, FORCE_UNITS)
     rate = _scale("rate unit", options.rate_unit, RATE_UNITS)
     default = Topics()

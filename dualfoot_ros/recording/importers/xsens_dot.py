@@ -12,9 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ...core import FloatArray, ImuSeries, RecordingError
+from ...core import FORWARD_LEFT_UP, FloatArray, ImuSeries, RecordingError, axes_matrix
 from ..recording import Recording
-from . import axes
 from .options import ImportOptions
 from .sample_counter import same_wrap, unwrap_us
 
@@ -39,7 +38,7 @@ def load(options: ImportOptions) -> Recording:
             "an Xsens DOT export holds one sensor, and which foot it was on is not in it; give "
             "--left FILE and --right FILE"
         )
-    rotation = axes.parse(options.axes)
+    rotation = np.array(axes_matrix(options.axes))
     left, left_header = _read(options.left, rotation, options.field_scale)
     right, right_header = _read(options.right, rotation, options.field_scale)
     left_ns, right_ns = same_wrap(left.stamp_ns, right.stamp_ns)
@@ -58,8 +57,8 @@ def load(options: ImportOptions) -> Recording:
     )
 
 
-def read_sensor(path: Path, orientation: str = axes.IDENTITY) -> ImuSeries:
-    """Return the samples of one sensor, of whatever foot, as ``axes.parse`` turns them.
+def read_sensor(path: Path, axes: str = FORWARD_LEFT_UP) -> ImuSeries:
+    """Return the samples of one sensor, of whatever foot, turned to forward-left-up.
 
     Raises
     ------
@@ -70,7 +69,7 @@ def read_sensor(path: Path, orientation: str = axes.IDENTITY) -> ImuSeries:
     OSError
         When it cannot be read.
     """
-    return _read(path, axes.parse(orientation), 0.0)[0]
+    return _read(path, np.array(axes_matrix(axes)), 0.0)[0]
 
 
 def _both(left: dict[str, str], right: dict[str, str], key: str) -> str:

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...batch.comparison import Entry
 from ..comparison_rows import by_case, over_bags
 from .style import FOOT, GREEN, MARKER, PINK, TRUTH, new_figure, save
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from ...batch import Entry
 
 WIDEST = 12.0  # inches
 

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import CalibrationError, FloatArray
+from ..core import STANDARD_GRAVITY, CalibrationError, FloatArray
 from .sensor import Triad
 from .static import Segment, attitudes
 
@@ -114,7 +114,7 @@ class AccelerometerFit:
 
 
 def fit_accelerometer(
-    segments: Sequence[Segment], model: str = "auto", gravity: float = 9.80665
+    segments: Sequence[Segment], model: str = "auto", gravity: float = STANDARD_GRAVITY
 ) -> AccelerometerFit:
     """Fit ``model``, or with "auto" the larger of "full" and "scale" that can be told.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 from ..core import FEET, CalibrationError
 from ..recording import Recording
@@ -32,12 +31,7 @@ def for_feet(given: Sequence[str]) -> dict[str, SensorCalibration]:
 
 def calibrated(recording: Recording, feet: Mapping[str, SensorCalibration]) -> Recording:
     """Return the recording with the samples of each foot corrected."""
-    corrected = {
-        foot: sensor.apply(series)
-        for foot, sensor in feet.items()
-        if (series := recording.imu(foot)) is not None
-    }
-    return replace(recording, **corrected)  # type: ignore[arg-type]
+    return recording.corrected(feet)
 
 
 def sensor_calibration(path: str, foot: str) -> SensorCalibration:

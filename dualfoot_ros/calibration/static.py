@@ -8,8 +8,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core import CalibrationError, FloatArray, ImuSeries, Parameters, parameter
-from ..inspection import GRAVITY, GRAVITY_ERROR, quality_of
+from ..core import (
+    STANDARD_GRAVITY,
+    CalibrationError,
+    FloatArray,
+    ImuSeries,
+    Parameters,
+    parameter,
+)
+from ..inspection import GRAVITY_ERROR, quality_of
 from ..timing import clean
 from .soundness import check_measured, not_finite, usable_samples
 
@@ -105,7 +112,7 @@ def segments_of(series: ImuSeries, name: str, config: Static | None = None) -> l
 def check_gravity(segment: Segment) -> None:
     """Raise CalibrationError when what is felt at rest is not gravity in m/s^2."""
     norm = float(np.linalg.norm(segment.mean))
-    if abs(norm - GRAVITY) > GRAVITY_ERROR:
+    if abs(norm - STANDARD_GRAVITY) > GRAVITY_ERROR:
         raise CalibrationError(
             f"'{segment.name}': the specific force at rest is {norm:.4g} m/s^2; allowed is "
             f"9.8 +- {GRAVITY_ERROR:g}, so check the unit, and that gravity was not taken out"

@@ -9,7 +9,7 @@ import numpy as np
 from ..core import FloatArray, ImuSeries
 from ..timing import Sync, clean
 from .standstill import Stand, first_stand
-from .stuck_values import Stuck, stuck_of
+from .stuck_values import Stuck, find_stuck
 
 CLIP_RATE = 4.0  # rad/s and m/s^2: below this an extreme that repeats is no clipping
 CLIP_FORCE = 15.0
@@ -95,7 +95,7 @@ def quality_of(series: ImuSeries, config: Sync | None = None) -> Quality:
         peak_rate=float(np.abs(good.angular_rate).max(initial=0.0)),
         clipped_force=clipped(good.specific_force, CLIP_FORCE),
         clipped_rate=clipped(good.angular_rate, CLIP_RATE),
-        stuck=stuck_of(good),
+        stuck=find_stuck(good),
     )
 
 

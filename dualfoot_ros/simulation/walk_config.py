@@ -9,7 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from ..core import FloatArray, Parameters, parameter
+from ..core import STANDARD_GRAVITY, FloatArray, Parameters, parameter
 from .routes import ROUTES
 
 
@@ -161,7 +161,9 @@ class WalkConfig(Parameters):
     )
     stops: int = parameter(0, "stops on the way, evenly spaced", minimum=0, maximum=1000)
     stop_duration: float = parameter(4.0, "length of a stop", unit="s", minimum=0.5, maximum=600.0)
-    gravity: float = parameter(9.80665, "local gravity", unit="m/s^2", minimum=9.7, maximum=9.9)
+    gravity: float = parameter(
+        STANDARD_GRAVITY, "local gravity", unit="m/s^2", minimum=9.7, maximum=9.9
+    )
     gait: Gait = field(default_factory=Gait)
 
     @classmethod

@@ -23,7 +23,6 @@ import numpy as np
 
 from ...core import (
     FEET,
-    DualFootTracker,
     EvaluationError,
     EventKind,
     FloatArray,
@@ -32,11 +31,13 @@ from ...core import (
     TrackerConfig,
     Trajectory,
 )
+from ...recording import Recording
 from ...simulation import BarometerConfig, MagnetometerConfig, SensorConfig, WalkConfig, simulate
 from ..frames.association import Footfalls
 from ..frames.gauge import Truth, overlap
 from ..frames.yaw_transform import YawTransform
 from ..metrics.nees import attitude_error, nees
+from ..track import track
 
 POINTS = 40
 CONFIDENCE = 0.95
@@ -83,7 +84,7 @@ def score_walk(job: WalkJob) -> WalkScores:
     barometer = BarometerConfig() if aids.barometer else None
     magnetometer = MagnetometerConfig() if aids.magnetic_heading else None
     made = simulate(job.walk, job.sensor, None, job.seed, barometer, magnetometer)
-    run = DualFootTracker(job.config).run(made.left, made.right, made.pressure)
+    run = track(Recording(made.left, made.right, pressure=made.pressure), job.config)
     nis = _nis(run)
     run, truth = overlap(run, (made.left_truth, made.right_truth))
     truth = in_gauge(truth, run, job.config)

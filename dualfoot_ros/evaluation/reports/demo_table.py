@@ -12,7 +12,7 @@ from ...recording import Recording
 from ..evaluate import Evaluation, evaluate
 from ..frames.gauge import Options
 from ..track import truth_of
-from .output import staged, write_metrics
+from .output import METRICS, report_folder, write_json
 from .plots import draw_all
 from .tum import write_tracks
 from .walk_table import methods_table
@@ -73,11 +73,11 @@ def demo_report(
         for name, run in runs.items()
     }
     target = Path(out_dir)
-    with staged(target) as folder:
+    with report_folder(target) as folder:
         figures = draw_all(found, folder, title)
         tracks = [p for name, run in found.items() for p in write_tracks(folder, run, f"{name}_")]
         written = (*figures, *tracks)
         paths = tuple(target / path.name for path in written)
-        report = Report(title, found, (*paths, target / "metrics.json"))
-        write_metrics(folder, report.to_dict())
+        report = Report(title, found, (*paths, target / METRICS))
+        write_json(folder / METRICS, report.to_dict())
     return report

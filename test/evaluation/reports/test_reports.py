@@ -15,7 +15,7 @@ from rich.console import Console
 from dualfoot_ros.evaluation import Align, EvaluationError, Options, demo_report, evaluate
 from dualfoot_ros.evaluation.notes import marker_notes, refusal_notes
 from dualfoot_ros.evaluation.plain import plain
-from dualfoot_ros.evaluation.reports.output import staged
+from dualfoot_ros.evaluation.reports.output import report_folder
 from dualfoot_ros.evaluation.reports.plots import draw_all, tracks
 from dualfoot_ros.evaluation.reports.plots.error_curves import _standing
 from dualfoot_ros.evaluation.reports.tum import write_tracks
@@ -139,7 +139,7 @@ def test_a_report_that_fails_half_way_leaves_the_folder_as_it_was(tmp_path):
     target = tmp_path / "report"
     target.mkdir()
     (target / "metrics.json").write_text("old")
-    with pytest.raises(RuntimeError), staged(target) as folder:
+    with pytest.raises(RuntimeError), report_folder(target) as folder:
         (folder / "metrics.json").write_text("new")
         raise RuntimeError
     assert (target / "metrics.json").read_text() == "old"
@@ -149,7 +149,7 @@ def test_a_report_that_fails_half_way_leaves_the_folder_as_it_was(tmp_path):
 def test_a_new_report_replaces_the_old_one_and_nothing_else_in_the_folder(tmp_path):
     (tmp_path / "notes.txt").write_text("mine")
     (tmp_path / "errors.png").write_text("old")
-    with staged(tmp_path) as folder:
+    with report_folder(tmp_path) as folder:
         (folder / "metrics.json").write_text("new")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["metrics.json", "notes.txt"]
 

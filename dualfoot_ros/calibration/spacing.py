@@ -23,13 +23,16 @@ import numpy as np
 
 from ..core import (
     METHODS,
+    MID_STANCE,
     CalibrationError,
     FloatArray,
+    StancePassing,
     TrackerConfig,
     Trajectory,
     method_parameters,
+    stance_passings,
 )
-from ..inspection import SHARE, Passing, SideBySide, passings_of, side_by_side, straight
+from ..inspection import SideBySide, side_by_side, straight
 
 LEAST_PASSINGS = 8
 LEAST_STEPS = 3
@@ -60,7 +63,7 @@ class SpacingFit:
     kappas: tuple[float, ...]
     height_m: float
     step_bulge_m: float
-    passings: tuple[Passing, ...]
+    passings: tuple[StancePassing, ...]
 
     @property
     def seen(self) -> bool:
@@ -104,7 +107,7 @@ def fit_spacing(trajectory: Trajectory, config: TrackerConfig | None = None) -> 
     CalibrationError
         When too few steps were found, or the feet are never abreast within a stance.
     """
-    passings = passings_of(trajectory)
+    passings = stance_passings(trajectory)
     if len(passings) < LEAST_PASSINGS:
         raise CalibrationError(
             f"{len(passings)} steps were found in which one foot passes the other; needed are "
@@ -140,7 +143,7 @@ class _Detail:
     bulge: float
 
     @classmethod
-    def of(cls, trajectory: Trajectory, passing: Passing) -> _Detail:
+    def of(cls, trajectory: Trajectory, passing: StancePassing) -> _Detail:
         tracks = (trajectory.left, trajectory.right)
         standing, swinging = tracks[passing.standing], tracks[1 - passing.standing]
         at = passing.epoch
@@ -169,7 +172,9 @@ def _on_chord(
     return point
 
 
-def _kappas(passings: Sequence[Passing], details: Sequence[_Detail], lag_s: float) -> list[float]:
+def _kappas(
+    passings: Sequence[StancePassing], details: Sequence[_Detail], lag_s: float
+) -> list[float]:
     """Return kappa of the steps on straight parts of the walk, each a mean over three."""
     found = []
     for k in range(1, len(passings) - 1):
@@ -183,7 +188,7 @@ def _kappas(passings: Sequence[Passing], details: Sequence[_Detail], lag_s: floa
             and d.stance_s > 0.0
         ):
             ahead = (details[k - 1].ahead + 2.0 * d.ahead + details[k + 1].ahead) / 4.0
-            found.append(SHARE + (lag_s - ahead / d.speed) / d.stance_s)
+            found.append(MID_STANCE + (lag_s - ahead / d.speed) / d.stance_s)
     if len(found) < LEAST_STEPS:
         raise CalibrationError(
             f"{len(found)} steps are on a straight part of the walk; needed are {LEAST_STEPS}, so "

@@ -18,6 +18,14 @@ from .errors import (
 )
 from .parameters import Parameters, ParameterSpec, check, parameter
 from .results.events import FEET, Event, EventKind
+from .results.passings import (
+    MID_STANCE,
+    StanceEpochs,
+    StancePassing,
+    SwingPassings,
+    stance_passings,
+    swing_passings,
+)
 from .results.rows import clean_stance, to_trajectory, turn_rows
 from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stance_middles
 from .results.update import FootEstimate, PedestrianEstimate, Update, quaternion_yaw
@@ -52,6 +60,7 @@ __all__ = [
     "GROUPS",
     "IDENTITY",
     "METHODS",
+    "MID_STANCE",
     "RATE_UNITS",
     "RIGHT_FRONT_UP",
     "STANDARD_GRAVITY",
@@ -84,6 +93,9 @@ __all__ = [
     "SeriesError",
     "SimulationError",
     "SourceError",
+    "StanceEpochs",
+    "StancePassing",
+    "SwingPassings",
     "TimingError",
     "TrackerConfig",
     "Trajectory",
@@ -101,7 +113,9 @@ __all__ = [
     "quaternion_yaw",
     "stance_bounds",
     "stance_middles",
+    "stance_passings",
     "stillness",
+    "swing_passings",
     "to_trajectory",
     "turn_rows",
 ]

@@ -11,7 +11,6 @@ from .findings import (
     require_usable,
 )
 from .lateral_spacing import SideBySide, side_by_side, straight
-from .passings import SHARE, Passing, passings_of
 from .pressure_facts import PressureFacts, pressure_facts, wearer_words
 from .quality import Quality, quality_of
 from .sample_findings import GRAVITY_ERROR, STUCK_SHARE
@@ -21,7 +20,6 @@ from .stuck_values import AXES, TRIADS, Channel, Held, Stuck, held_at_rest
 __all__ = [
     "AXES",
     "GRAVITY_ERROR",
-    "SHARE",
     "STUCK_SHARE",
     "TRIADS",
     "Channel",
@@ -29,7 +27,6 @@ __all__ = [
     "Finding",
     "FindingKind",
     "Held",
-    "Passing",
     "PressureFacts",
     "Quality",
     "Severity",
@@ -40,7 +37,6 @@ __all__ = [
     "field_facts",
     "findings_of",
     "held_at_rest",
-    "passings_of",
     "pressure_facts",
     "qualities_of",
     "quality_of",

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..core import Trajectory
+from ..core import Trajectory, stance_passings
 from .finding import Finding, FindingKind, Severity
 from .lateral_spacing import side_by_side
-from .passings import passings_of
 
 SIGMAS = 3.0
 LEAST_PASSINGS = 8
@@ -20,7 +19,7 @@ def walk_findings(trajectory: Trajectory) -> Iterator[Finding]:
     Which foot is on the left is observable in turns only, where the outer foot makes the longer
     way.  Without turns, or where the tracks have drifted too far, there is no finding.
     """
-    passings = passings_of(trajectory)
+    passings = stance_passings(trajectory)
     if len(passings) < LEAST_PASSINGS:
         return
     feet = side_by_side(passings)

@@ -26,7 +26,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .passings import Passing
+from ..core import StancePassing
 
 SPACING_STD_M = 0.3  # of either sign
 PLACEMENT_STD_M = 0.3
@@ -75,7 +75,7 @@ class SideBySide:
         return self.spacing_m / self.std_m
 
 
-def side_by_side(passings: Sequence[Passing]) -> SideBySide:
+def side_by_side(passings: Sequence[StancePassing]) -> SideBySide:
     """Estimate the spacing from the passings of a walk; without turns it stays at 0 +- 0.3 m."""
     filter_ = _Filter()
     used = 0
@@ -105,10 +105,10 @@ class _Filter:
         first = [SPACING_STD_M**2, place, place, HEADING_STD**2, SCALE_STD**2, moment]
         self.p = np.diag(first)
         self.jumps = 0
-        self._last: Passing | None = None
+        self._last: StancePassing | None = None
         self._way_m = 0.0
 
-    def add(self, passing: Passing) -> None:
+    def add(self, passing: StancePassing) -> None:
         """Go on to ``passing`` and take it."""
         if self._last is not None:
             self._advance(passing, self._last)
@@ -127,7 +127,7 @@ class _Filter:
         self.x = self.x + gain @ innovation
         self.p = self.p - gain @ s @ gain.T
 
-    def _advance(self, passing: Passing, last: Passing) -> None:
+    def _advance(self, passing: StancePassing, last: StancePassing) -> None:
         way = passing.middle - last.middle
         self._way_m += float(np.linalg.norm(way))
         (a, b), (c, d) = last.forward, passing.forward
@@ -149,7 +149,7 @@ class _Filter:
         self.p[A, A] = (4.0 * PLACEMENT_STD_M**2 + square_m2) * np.eye(2)
 
 
-def _scatter(passings: Sequence[Passing]) -> float:
+def _scatter(passings: Sequence[StancePassing]) -> float:
     """Return the step-to-step scatter (m) of the lateral distance where the walk was straight.
 
     From second differences over one foot's steps, so that a steady drift does not count.
@@ -164,6 +164,6 @@ def _scatter(passings: Sequence[Passing]) -> float:
     return float(1.4826 * np.median(np.abs(bends)) / math.sqrt(6.0))
 
 
-def straight(first: Passing, last: Passing, within_deg: float = 10.0) -> bool:
+def straight(first: StancePassing, last: StancePassing, within_deg: float = 10.0) -> bool:
     """Return whether the walk went on in the same direction."""
     return float(first.forward @ last.forward) > math.cos(math.radians(within_deg))

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from dualfoot_ros.core import StanceEpochs, StancePassing, stance_passings
 from dualfoot_ros.inspection.exchanged_feet import walk_findings
 from dualfoot_ros.inspection.lateral_spacing import side_by_side
-from dualfoot_ros.inspection.passings import Passing, Stance
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 from dualfoot_ros.simulation import SensorConfig, WalkConfig, simulate
 
@@ -31,8 +31,8 @@ def passings(headings, spacing, *, drift=0.0, scale=0.0, offset=(0.0, 0.0), nois
         place = place + way
         apart = apart + drift * np.array([-way[1], way[0]]) + scale * way
         separation = apart + spacing * left + noise * rng.standard_normal(2)
-        stance = Stance(60 * k, 60 * k + 30)
-        made.append(Passing(60 * k + 15, k % 2, stance, (0, 0), separation, forward, place))
+        stance = StanceEpochs(60 * k, 60 * k + 30)
+        made.append(StancePassing(60 * k + 15, k % 2, stance, (0, 0), separation, forward, place))
     return made
 
 
@@ -120,9 +120,7 @@ def test_the_uncertainty_is_honest_on_simulated_walks(route, errors):
 
 
 def spacing_of(left, right):
-    from dualfoot_ros.inspection.passings import passings_of
-
-    return side_by_side(passings_of(track_feet(left, right)))
+    return side_by_side(stance_passings(track_feet(left, right)))
 
 
 def walks(dual_feet):

@@ -10,14 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from ...core import EvaluationError, FloatArray, IntArray
+from ...core import EvaluationError, FloatArray, IntArray, swing_passings
 from ...core.kernel import compiled
 from ...inspection import Finding, check_usable
 from ...recording import Recording, Topics, read_bag
 from ..evaluate import Evaluation
 from ..frames.gauge import Options, Truth
 from ..metrics.accuracy import Statistics, statistics
-from ..metrics.foot_passings import passings
 from ..metrics.repeated_walk import STRIDE, StridePlace, repeated, stride_place
 from ..plain import plain
 from ..run import RunOptions, run_checked
@@ -167,7 +166,8 @@ def least_distances(truth: Truth, left_stance: np.ndarray, right_stance: np.ndar
     apart = np.linalg.norm(left.position - right.position, axis=1)
     near = max(1, int(NEAR_S * 1e9 / float(np.median(np.diff(left.stamp_ns)))))
     closest = []
-    for middle in passings(left.position, right.position, left_stance, right_stance).index:
+    passings = swing_passings(left.position, right.position, left_stance, right_stance)
+    for middle in passings.index:
         first = max(0, int(middle) - near)
         closest.append(first + int(np.argmin(apart[first : int(middle) + near + 1])))
     return np.unique(np.array(closest, dtype=np.int64))

@@ -1,4 +1,4 @@
-"""Calibrations as they are given on the command line or to a node, put on their feet."""
+"""Calibrations of both feet from the files that a command line or a node names."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ def for_feet(given: Sequence[str]) -> dict[str, SensorCalibration]:
     OSError
         When a file cannot be read.
     """
-    found: dict[str, SensorCalibration] = {}
+    calibrations: dict[str, SensorCalibration] = {}
     for text in given:
         for foot, sensor in _one(text).items():
-            if foot in found:
+            if foot in calibrations:
                 raise CalibrationError(f"two calibrations are given for the {foot} foot")
-            found[foot] = sensor
-    return found
+            calibrations[foot] = sensor
+    return calibrations
 
 
 def calibrated(recording: Recording, feet: Mapping[str, SensorCalibration]) -> Recording:
@@ -47,8 +47,8 @@ def sensor_calibration(path: str, foot: str) -> SensorCalibration:
     calibration = Calibration.load(path)
     sensor = calibration.of(foot)
     if sensor is None:
-        there = ", ".join(calibration.sensors)
-        raise CalibrationError(f"calibration '{path}' is for {there}; there is none for {foot}")
+        named = ", ".join(calibration.sensors)
+        raise CalibrationError(f"calibration '{path}' is for {named}; it has none for {foot}")
     return sensor
 
 

@@ -32,7 +32,7 @@ def usable_samples(series: ImuSeries, name: str) -> ImuSeries:
     Raises
     ------
     CalibrationError
-        When none can be used, or stamps or values show that they are no measurements.
+        When none can be used, or stamps or values are those of no measurement.
     """
     _check_stamps(series, name)
     quality = quality_of(series)
@@ -59,7 +59,7 @@ def check_measured(still: ImuSeries, name: str, triad: str) -> None:
 def doubts(
     series: ImuSeries, name: str, triad: str, standstills: list[ImuSeries]
 ) -> Iterator[str]:
-    """Say what is wrong with a recording that tells of ``triad`` all the same."""
+    """Yield the faults of a recording from which ``triad`` can be calibrated all the same."""
     quality = quality_of(series)
     if quality.not_finite:
         yield f"'{name}': {not_finite(quality)} and left out; repair the driver or the export"
@@ -76,7 +76,7 @@ def doubts(
 
 
 def not_finite(quality: Quality) -> str:
-    """Say how many samples are not finite."""
+    """Return the number of samples that are not finite, in words."""
     return (
         f"{quality.not_finite} of {quality.samples} samples are not finite (nan or inf; the first "
         f"is sample {quality.first_not_finite})"
@@ -137,7 +137,7 @@ def _stuck_sentence(stuck: Stuck, good: ImuSeries) -> str:
 
 
 def _held_sentence(axes: Sequence[Held]) -> str:
-    """Say what the axes of one triad hold."""
+    """Return the values that the axes of one triad hold, in words."""
     words, unit = WORDS[axes[0].triad], UNITS[axes[0].triad]
     one = len(axes) == 1
     return (

@@ -135,7 +135,7 @@ def _run(jobs: Sequence[Job], processes: int) -> tuple[list[Entry], dict[str, Fa
 
 
 def _name_failures(jobs: Sequence[Job], failures: Mapping[int, Failure]) -> dict[str, Failure]:
-    """Return the failures by what failed: a bag once, where every method failed alike."""
+    """Return the failures by bag and case; a bag once, where every case failed alike."""
     named: dict[str, Failure] = {}
     for bag in dict.fromkeys(job.bag for job in jobs):
         own = [index for index, job in enumerate(jobs) if job.bag == bag]

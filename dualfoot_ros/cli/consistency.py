@@ -32,8 +32,8 @@ examples:
   dualfoot consistency --route track --walks 20 -o report
   dualfoot consistency --errors mirrored --json         sensors that err alike, as mirror images
 
-1 is honest, above promises too much.  In brackets: where the figure lies in 95 of 100 cases if the
-filter is consistent.  The headings' common error is drawn by each walk's sensors once and for all.
+1 is a consistent filter, more an over-confident one.  The band holds the figure in 95 of 100 cases
+if the filter is consistent.  The common heading error of a walk is one draw of the sensor errors.
 """
 
 
@@ -51,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--errors",
         choices=("independent", "mirrored"),
         default="independent",
-        help="how the errors of the two feet go together (default: %(default)s)",
+        help="relation of the errors of the two feet (default: %(default)s)",
     )
     add_jobs_argument(parser)
     add_report_arguments(parser)

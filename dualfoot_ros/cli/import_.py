@@ -100,7 +100,7 @@ def _add_bag_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Import and say what was written."""
+    """Import, write the bag and describe it; return the exit code."""
     if args.list:
         _list()
         return 0

@@ -1,4 +1,4 @@
-"""``dualfoot info``: what is in a bag, in words."""
+"""``dualfoot info``: the contents of a bag in words."""
 
 from __future__ import annotations
 

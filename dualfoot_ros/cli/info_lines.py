@@ -24,9 +24,9 @@ DEG = 180.0 / math.pi
 
 @dataclass(frozen=True)
 class Contents:
-    """A recording, the topics of its bag, and what was found out about it.
+    """A recording, the topics of its bag, and the results of its inspection.
 
-    ``stances`` are of each foot, and empty where nobody looked for them.
+    ``stances`` are those of each foot; empty when they were not looked for.
     """
 
     recording: Recording

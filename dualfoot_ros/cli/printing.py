@@ -46,7 +46,7 @@ def print_error(verb: str, sentence: str) -> None:
 
 
 def print_warning(verb: str, sentence: str) -> None:
-    """Print what a user should know of a result all the same."""
+    """Print a warning about a result."""
     print(f"dualfoot {verb}: warning: {sentence}", file=sys.stderr)
 
 

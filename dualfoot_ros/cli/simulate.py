@@ -38,10 +38,10 @@ examples:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of the verb."""
     add_bag_output_argument(parser)
+    parser.add_argument("--list", action="store_true", help="show all choices, and exit")
     parser.add_argument(
-        "--list", action="store_true", help="show what there is to choose, and end"
+        "--seed", type=int, default=0, help="seed of the random numbers (default: 0)"
     )
-    parser.add_argument("--seed", type=int, default=0, help="seed of all chance (default: 0)")
     _add_walk(parser)
     _add_sensor(parser)
     add_set_argument(parser, "any other parameter by its dotted name, see --list; may be repeated")
@@ -67,7 +67,7 @@ def _add_sensor(parser: argparse.ArgumentParser) -> None:
         "--errors",
         choices=("independent", "mirrored"),
         default="independent",
-        help="how the errors of the two feet go together (default: %(default)s)",
+        help="relation of the errors of the two feet (default: %(default)s)",
     )
     group.add_argument(
         "--one-shoe",
@@ -100,7 +100,7 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Simulate, write the bag and say what is in it; return the exit code."""
+    """Simulate, write the bag and describe it; return the exit code."""
     from ..simulation import SimulationError
 
     if args.list:

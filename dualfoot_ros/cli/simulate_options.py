@@ -25,7 +25,7 @@ PLAIN = ("route", "laps", "speed", "rate", "mounting", "standing", "stops", "sto
 def configurations(
     args: argparse.Namespace,
 ) -> tuple[WalkConfig, SensorConfig, tuple[ClockConfig, ClockConfig]]:
-    """Return what to simulate, from the options and the ``--set`` parameters.
+    """Return walk, sensor and clocks, from the options and the ``--set`` parameters.
 
     Raises
     ------
@@ -85,12 +85,12 @@ def magnetometer(args: argparse.Namespace) -> MagnetometerConfig | None:
     return MagnetometerConfig.from_mapping(given, "magnetometer.") if args.magnetometer else None
 
 
-def _optional(args: argparse.Namespace, name: str, there: bool) -> Mapping[str, Any]:
-    """Return what ``--set`` gives to a sensor that is only there if asked for."""
+def _optional(args: argparse.Namespace, name: str, present: bool) -> Mapping[str, Any]:
+    """Return the ``--set`` parameters of a sensor that an option of its own switches on."""
     from ..core import ConfigError, nested
 
     given: Mapping[str, Any] = nested(settings(args)).get(name, {})
-    if given and not there:
+    if given and not present:
         first = next(iter(given))
         raise ConfigError(f"'{name}.{first}' is set without a {name}; add --{name}")
     return given

@@ -26,7 +26,7 @@ EXAMPLES = """\
 examples:
   dualfoot sync walk                        offset, skew and confidence; nothing is written
   dualfoot sync walk -o aligned             also the bag with the stamps of both feet on one clock
-  dualfoot sync walk --method motion        by the gait, whatever the arrival times say
+  dualfoot sync walk --method motion        by the gait, whatever the arrival times are
   dualfoot sync walk --method shake         by a shake of both devices held together
   dualfoot sync walk --json                 one JSON object on standard output
 
@@ -34,7 +34,7 @@ methods:
   arrival  log times against stamps, each foot: its clock on the host's (live recordings)
   shake    a time at which both devices were held together and turned to and fro
   motion   the gait: one foot swings while the other one stands (good to about 10 ms)
-  auto     arrival where the log times tell something, else shake, else motion
+  auto     arrival where the log times are of use, else shake, else motion
 
 By shake and motion the right foot goes on the left foot's clock, by arrival both go on the
 host's.  Ground truth in the bag keeps its stamps.
@@ -49,7 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--method",
         choices=("auto", "motion", "shake", "arrival"),
         default="auto",
-        help="what to go by (default: %(default)s)",
+        help="source of the offset (default: %(default)s)",
     )
     add_storage_arguments(parser)
     add_json_argument(parser)
@@ -57,7 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Find the offset, write the bag, say what was found; return the exit code."""
+    """Find the offset, write the bag, print the result; return the exit code."""
     from ..recording import METADATA, check_target
 
     if args.output is not None:

@@ -1,4 +1,4 @@
-"""Evaluate one trajectory of both feet against whatever is known about the walk."""
+"""Evaluation of one trajectory of both feet against truth, markers, or itself."""
 
 from __future__ import annotations
 
@@ -56,10 +56,10 @@ class Evaluation:
     tracked : the same before alignment, whole, in the tracker's own frame
     truth : at the stamps of the trajectory, or None
     markers : foot -> (K, 3) m, the floor markers it stood on; may be empty
-    options, transforms : what aligned it (no transforms without a reference)
+    options, transforms : of the alignment (no transforms without a reference)
     aligned_to : "truth", "markers" or None
     closed_loop : the reference says that each foot ends where it started
-    notes : sentences on what a reader of the figures should know
+    notes : sentences for the reader of the figures
     findings : warnings about the recording, where :func:`run` looked for them
     run_s : s, CPU time of pairing and tracking, where :func:`run` did them
     """
@@ -87,7 +87,7 @@ class Evaluation:
 
     @property
     def alignment_name(self) -> str:
-        """Say in words how the frame was fixed."""
+        """Description of how the frame was fixed."""
         if self.aligned_to is None:
             return "none (no reference)"
         return self.options.words(self.aligned_to)
@@ -176,7 +176,7 @@ def evaluate(
 
 
 def event_counts(trajectory: Trajectory) -> dict[str, dict[str, int]]:
-    """Return how many events of each kind were applied and refused."""
+    """Return the numbers of applied and refused events by kind."""
     counts: dict[str, Counter[str]] = {kind.value: Counter() for kind in EventKind}
     for event in trajectory.events:
         counts[event.kind.value]["applied" if event.accepted else "refused"] += 1

@@ -129,8 +129,8 @@ def _samples(recording: Recording, foot: str) -> ImuSeries:
         return samples
     other = FEET[1 - FEET.index(foot)]
     beside = recording.imu(other)
-    there = f"only the {other} foot" if beside is not None and len(beside) else "neither foot"
+    present = f"only the {other} foot" if beside is not None and len(beside) else "neither foot"
     raise EvaluationError(
-        f"no samples of the {foot} foot: the recording holds {there}, and both are needed; "
+        f"no samples of the {foot} foot: the recording holds {present}, and both are needed; "
         f"'dualfoot info' lists its topics, --{foot}-topic names another one"
     )

@@ -16,7 +16,7 @@ class Severity(StrEnum):
 
 
 class FindingKind(StrEnum):
-    """What was found; the values are the names in ``dualfoot info --json``."""
+    """The subject of a finding; the values are the names in ``dualfoot info --json``."""
 
     MISSING = "missing"
     NOT_FINITE = "not_finite"
@@ -42,11 +42,11 @@ class FindingKind(StrEnum):
 
 @dataclass(frozen=True)
 class Finding:
-    """Something about a recording that its user should know.
+    """One observation about a recording that its user should know.
 
     Attributes
     ----------
-    kind, severity : what was found and how grave it is; code decides by these alone
+    kind, severity : code decides by these alone
     text : what is wrong, and where
     remedy : what to do about it; empty where there is nothing to do
     """

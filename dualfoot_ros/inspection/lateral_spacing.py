@@ -1,19 +1,19 @@
-"""How far the left foot is to the left of the right one, from two tracks that nothing ties.
+"""Lateral distance of the feet, left positive, from two tracks without constraints between them.
 
-A stand does not show it, nor does a straight line: where each track starts is a gauge.  A turn
-does, as in :mod:`dualfoot_ros.core.constraints.learnt_spacing`.  This is the offline form, for
-walks that are long or whose feet may have been exchanged: nothing says that the spacing is
-positive, and the ways in which two tracks drift apart are estimated with it.  At passing k, with n
-the unit vector to the left of the walk, f forward, and s the spacing, the separation (left minus
-right) is
+In a standstill and along a straight line it is unobservable, since the place where each track
+starts is a gauge.  In a turn it is observable, as in
+:mod:`dualfoot_ros.core.constraints.learnt_spacing`.  This is the offline form, for walks that are
+long or whose feet may have been exchanged: the spacing may have either sign, and the ways in which
+two tracks drift apart are estimated with it.  At passing k, with n the unit vector to the left of
+the walk, f forward, and s the spacing, the separation (left minus right) is
 
     u_k = s n_k + a_k + d g_k f_k + noise,    g = +1 when the right foot stands, else -1,
     a_k+1 = a_k + delta J w_k + epsilon w_k + wander,
 
 where a is the error of the placement, w the way from one passing to the next, J a quarter turn to
 the left, delta the difference of the tracks' headings, epsilon that of their scales, and d by how
-much the moment taken for the passing is early or late.  A Kalman filter of (s, a, delta, epsilon,
-d) is all it takes.  A turn lets the navigation filter correct the heading it had so far and with
+much the moment taken for the passing is early or late.  A Kalman filter estimates (s, a, delta,
+epsilon, d).  A turn lets the navigation filter correct the heading it had so far and with
 it the place, so the wander grows in turns with the way walked; a jump beyond that is taken as a
 new placement.
 """
@@ -42,22 +42,22 @@ ACROSS_STD_M = 0.04
 ALONG_STD_M = 0.08
 JUMP_NIS = 20.0
 LEAST_STEPS = 5  # steps; fewer have no scatter
-FARTHEST_HEADING = 0.5  # rad; tracks that differ by more tell nothing any more
+FARTHEST_HEADING = 0.5  # rad; tracks that differ by more are not used
 
 S, A, DELTA, EPSILON, D = 0, slice(1, 3), 3, 4, 5
 
 
 @dataclass(frozen=True)
 class SideBySide:
-    """The estimate and what it rests on.
+    """The estimate and the data behind it.
 
     Attributes
     ----------
     spacing_m, std_m : lateral distance of the feet in passing, left positive
-    passings : how many were used
+    passings : number of those used
     turned_rad : span of the headings of the walk
-    jumps : how often the tracks were placed anew
-    scatter_m : how much the lateral distance varies from step to step
+    jumps : number of times that the tracks were placed anew
+    scatter_m : standard deviation of the lateral distance from step to step
     heading_difference_rad : of left minus right track, at the end
     """
 

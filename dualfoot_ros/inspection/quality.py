@@ -1,4 +1,4 @@
-"""The facts of one foot's samples: counts, rate, jitter, gaps, standstill, units, clipping."""
+"""The samples of one foot in figures: counts, rate, jitter, gaps, standstill, units, clipping."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CLIP_FORCE = 15.0
 
 @dataclass(frozen=True)
 class Quality:
-    """What can be said of the samples of one foot.
+    """The samples of one foot in figures.
 
     Attributes
     ----------
@@ -33,7 +33,7 @@ class Quality:
     median_force, high_rate : median of |specific force|; 98 % quantile of |angular rate|
     peak_force, peak_rate : greatest absolute value of an axis
     clipped_force, clipped_rate : samples at the end of the range
-    stuck : what repeats itself
+    stuck : axes, or the whole sensor, that repeat their values
     """
 
     samples: int

@@ -18,7 +18,7 @@ def write_text(path: Path, text: str) -> None:
     Raises
     ------
     RecordingError
-        When ``path`` is there and is no file (a folder, a device).
+        When ``path`` exists and is no ordinary file (a folder, a device).
     OSError
         When it cannot be written; names ``path``.
     """
@@ -114,7 +114,7 @@ def _scratch_folder(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def _naming(path: Path) -> Iterator[None]:
-    """Let an OSError name ``path``, as it was given, and not what is in between."""
+    """Let an OSError name ``path``, as it was given, and no scratch file."""
     try:
         yield
     except OSError as error:

@@ -24,13 +24,13 @@ class Recording:
 
     Attributes
     ----------
-    left, right : samples in the order they were recorded, stamps as recorded; None if missing
+    left, right : samples and stamps in the order in which they were recorded; None if missing
     left_truth, right_truth : true poses (velocity in the navigation frame), where there are any
     reference : floor markers and the like, where there are any
     pressure : air pressure of sensors worn on "left", "right", or on the body for "both"
     left_frame, right_frame : frame ids of the two sensors
-    notes : further facts that travel with the bag (where it comes from, which clock it has ...)
-    topics : the names under which the samples were looked for
+    notes : further facts that travel with the bag (its source, the clock of its stamps ...)
+    topics : the names of the topics that were read
     imu_topics : every topic of type sensor_msgs/Imu that the bag has
     """
 

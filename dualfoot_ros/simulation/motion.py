@@ -1,7 +1,7 @@
 """The motion of one shoe as a quintic B-spline: exact position, velocity, rotation and rates.
 
 The rough motion (footprints, templates, ringing, wobble) is sampled at the control points of a
-uniform quintic B-spline.  What the spline makes of them *is* the truth: four times continuously
+uniform quintic B-spline.  The spline through them *is* the truth: four times continuously
 differentiable, exactly at rest where the rough motion rests, every derivative a closed form.
 """
 
@@ -25,7 +25,7 @@ MARGIN_S = 0.5
 
 @dataclass(frozen=True)
 class Kinematics:
-    """What a sensor at one place on the shoe goes through; the sensor's frame is the body frame.
+    """The motion of a sensor at one place on the shoe; the sensor's frame is the body frame.
 
     Attributes
     ----------
@@ -145,7 +145,7 @@ class Walker:
         self.scale = self._scale()
 
     def _scale(self) -> FloatArray:
-        """Return (K,) how large each swing is: 1 for a full stride, less on stairs."""
+        """Return the size (K,) of each swing: 1 for a full stride, less on stairs."""
         progress = self.prints.progress[self.rows]
         stride = np.diff(progress, prepend=progress[0]) / (2.0 * self.config.step_length)
         scale = np.clip(stride, 0.3, 1.15)

@@ -1,4 +1,4 @@
-"""The errors of an inertial sensor: what stands between the motion and the numbers.
+"""The errors of an inertial sensor, from the true motion to its output.
 
 In this order: scale and misalignment, g-sensitivity, turn-on bias, warm-up drift, bias instability
 (first-order Gauss-Markov), white noise, saturation, quantisation.

@@ -1,4 +1,4 @@
-"""What can be chosen about a simulated walk: the way, the walker, and where the sensor sits."""
+"""Parameters of a simulated walk: the route, the walker, and the mounting of the sensors."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def rotation_zyx(yaw: FloatArray, pitch: FloatArray, roll: FloatArray) -> FloatA
 
 @dataclass(frozen=True)
 class Gait(Parameters):
-    """How the walker walks, and how much one step differs from the next."""
+    """Parameters of the gait, and their variation from step to step."""
 
     walk_ratio: float = parameter(
         0.0065, "step length over cadence", unit="m min", minimum=0.002, maximum=0.02

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def draw_spacing(fit: SpacingFit, path: Path, title: str) -> Path:
-    """Draw where the feet are abreast in the stances, and the walk that told the spacing."""
+    """Draw where the feet are abreast in the stances, and the walk that showed the spacing."""
     figure, axes = new_figure(10.0, 4.4, columns=2)
     _walk(axes[0, 0], fit)
     _abreast(axes[0, 1], fit)

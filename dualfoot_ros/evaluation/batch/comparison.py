@@ -1,4 +1,4 @@
-"""One method on one bag, reduced to what tables and figures of many of them need."""
+"""One case on one bag, reduced to the figures that tables and plots of many of them need."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Tracks:
-    """What a figure from above shows: (K, 2) m by foot, thinned."""
+    """Tracks from above for a figure: (K, 2) m by foot, thinned."""
 
     estimate: Mapping[str, FloatArray]
     truth: Mapping[str, FloatArray]
@@ -91,7 +91,7 @@ def compare_one(job: Job) -> Entry:
     ------
     DualFootError
         When the bag cannot be used, or nothing was tracked; or for a repeated walk with an aid
-        that needs what is not repeated.
+        whose measurements cannot be repeated.
     """
     _check_repeatable(job)
     topics = job.left_topic, job.right_topic

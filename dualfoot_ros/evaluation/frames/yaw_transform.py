@@ -1,4 +1,4 @@
-"""Bring an estimate into the frame of its reference by what inertial navigation cannot see.
+"""Transforms in yaw and translation, which are unobservable, from an estimate to its reference.
 
 Position and heading of the start are a gauge: four degrees of freedom (yaw and translation) that
 no inertial sensor observes.  Roll and pitch are observed, so they are never aligned away.  Two
@@ -28,7 +28,7 @@ FIRST_STRIDES_M = 4.8
 
 
 class Align(StrEnum):
-    """How the frame of an estimate is fixed to that of the reference."""
+    """The method that fixes the frame of an estimate to that of the reference."""
 
     FIRST_STRIDES = "first_strides"
     UMEYAMA4 = "umeyama4"

@@ -1,4 +1,4 @@
-"""What an importer is told."""
+"""Options of the importers."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from ...core import FORWARD_LEFT_UP
 
 @dataclass(frozen=True)
 class ImportOptions:
-    """What to import and how; what a format does not need is left at its default.
+    """The files to import and how; options that a format does not need keep their default.
 
     Attributes
     ----------
     sources : files that hold both feet
     left, right : files of one foot each
-    axes : which device axes point forward, left and up, as ``core.axes_matrix`` reads it
+    axes : device axes that point forward, left and up, as ``core.axes_matrix`` reads it
     right_offset_s : added to every stamp of the right foot, s
     field_scale : tesla per unit of the magnetometer, 0 leaves it out
     left_topic, right_topic : sensor_msgs/Imu topics of a bag; None for those this package writes

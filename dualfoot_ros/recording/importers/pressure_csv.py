@@ -54,13 +54,13 @@ def _check_widths(path: Path, rows: list[dict[str, str]]) -> None:
 
 
 def _known(path: Path, row: dict[str, str], names: dict[str, float]) -> str:
-    found = [name for name in names if name in row]
-    if len(found) != 1:
+    present = [name for name in names if name in row]
+    if len(present) != 1:
         raise RecordingError(
             f"'{path}' has the columns {', '.join(map(str, row))}; "
             f"exactly one must be one of {', '.join(names)}"
         )
-    return found[0]
+    return present[0]
 
 
 def _column(path: Path, rows: list[dict[str, str]], name: str) -> FloatArray:

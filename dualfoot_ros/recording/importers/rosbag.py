@@ -1,4 +1,4 @@
-"""A bag of any two sensor_msgs/Imu topics: other names, axes, or units than they should be."""
+"""A bag of two sensor_msgs/Imu topics of any names, axes and units."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def load(options: ImportOptions) -> Recording:
     Raises
     ------
     ConfigError
-        When the axes are none.
+        When the axes are not three signed axes, right-handed.
     RecordingError
         When it is no bag, a unit is unknown, or neither topic is there.
     """
@@ -45,10 +45,10 @@ def load(options: ImportOptions) -> Recording:
     recording = read_bag(options.sources[0], topics=topics)
     missing = [topics.of(foot).imu for foot in FEET if recording.imu(foot) is None]
     if missing:
-        there = ", ".join(recording.imu_topics) or "none"
+        present = ", ".join(recording.imu_topics) or "none"
         raise RecordingError(
             f"'{options.sources[0]}' has no topic '{missing[0]}'; its sensor_msgs/Imu topics are: "
-            f"{there}; name two of them with --left-topic and --right-topic"
+            f"{present}; name two of them with --left-topic and --right-topic"
         )
     notes = {
         **recording.notes,

@@ -2,7 +2,7 @@
 
 ``Acc_*`` is m/s^2, ``Gyr_*`` deg/s, ``Mag_*`` arbitrary units (1 is the field where the sensor
 was calibrated), ``SampleTimeFine`` the device's microseconds as a 32-bit counter.  The device is
-forward-left-up when it lies flat with its x axis to the toes; ``axes`` says otherwise.
+forward-left-up when it lies flat with its x axis to the toes; ``axes`` describes other mountings.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def load(options: ImportOptions) -> Recording:
     Raises
     ------
     ConfigError
-        When the axes are none.
+        When the axes are not three signed axes, right-handed.
     RecordingError
         When a foot is missing or a file is no such export; names the file and the column.
     """
@@ -58,12 +58,12 @@ def load(options: ImportOptions) -> Recording:
 
 
 def read_sensor(path: Path, axes: str = FORWARD_LEFT_UP) -> ImuSeries:
-    """Return the samples of one sensor, of whatever foot, turned to forward-left-up.
+    """Return the samples of one sensor, of either foot, turned to forward-left-up.
 
     Raises
     ------
     ConfigError
-        When the axes are none.
+        When the axes are not three signed axes, right-handed.
     RecordingError
         When the file is no such export.
     OSError

@@ -1,4 +1,4 @@
-"""NEES along the walk with its band, and what every figure comes to."""
+"""NEES along the walk, with the band of a consistent filter."""
 
 from __future__ import annotations
 

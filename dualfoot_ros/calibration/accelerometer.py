@@ -138,14 +138,14 @@ def why_not(segments: Sequence[Segment], model: Model, gravity: float) -> str:
     need = f"{model.words} need {NEEDS[model.name]}"
     if count < model.attitudes:
         plural = "attitude is" if count == 1 else "attitudes are"
-        return f"{count} different {plural} too few: {need}{_missing(segments)}"
+        return f"{count} different {plural} too few: {need}{_missing_sides(segments)}"
     fitted = _fit(segments, model, gravity)
     std = np.concatenate([fitted.bias_std, np.diag(fitted.matrix_std), fitted.matrix_std[LOWER]])
     std *= REPEATABILITY / fitted.sigma  # by the geometry of the attitudes, not by their fit
     worst = int(np.argmax(std[: model.size] / LARGEST_STD[: model.size]))
     if std[worst] > LARGEST_STD[worst]:
         return (
-            f"the {count} attitudes do not determine {_parameter(worst)} (standard deviation "
+            f"the {count} attitudes do not determine {_parameter_name(worst)} (standard deviation "
             f"{std[worst]:.2g}, allowed {LARGEST_STD[worst]:g}): {need}"
         )
     return ""
@@ -180,7 +180,7 @@ def _fit(segments: Sequence[Segment], model: Model, gravity: float) -> Accelerom
     misfit = 2.0 * solved.cost / redundancy if redundancy > 0 else 0.0
     sigma = max(REPEATABILITY, float(np.sqrt(misfit)))
     covariance = sigma**2 * np.linalg.pinv(solved.jac.T @ solved.jac, rcond=1e-12)
-    bias_std, matrix_std = _spread(np.sqrt(np.diag(covariance)))
+    bias_std, matrix_std = _unpack_std(np.sqrt(np.diag(covariance)))
     before, after = norms(means) - gravity, norms((means - bias) @ matrix.T) - gravity
     return AccelerometerFit(
         model.name,
@@ -207,7 +207,7 @@ def unpack(x: FloatArray) -> tuple[FloatArray, FloatArray]:
     return x[:3].copy(), matrix
 
 
-def _spread(std: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _unpack_std(std: FloatArray) -> tuple[FloatArray, FloatArray]:
     matrix = np.zeros((3, 3))
     if len(std) > 3:
         matrix[np.diag_indices(3)] = std[3:6]
@@ -216,7 +216,7 @@ def _spread(std: FloatArray) -> tuple[FloatArray, FloatArray]:
     return std[:3].copy(), matrix
 
 
-def _parameter(index: int) -> str:
+def _parameter_name(index: int) -> str:
     if index < 3:
         return f"the bias of {AXES[index]}"
     if index < 6:
@@ -225,7 +225,7 @@ def _parameter(index: int) -> str:
     return f"the misalignment of {AXES[row]} against {AXES[column]}"
 
 
-def _missing(segments: Sequence[Segment]) -> str:
+def _missing_sides(segments: Sequence[Segment]) -> str:
     """Return the sides that have not been up, in words."""
     ups = np.array([s.direction for s in segments])
     lacking = [

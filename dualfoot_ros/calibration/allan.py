@@ -107,7 +107,7 @@ def slopes_of(curve: AllanCurve, axis: int) -> Slopes:
     slope = _local_slope(tau, deviation)
     falling = (np.abs(slope + 0.5) < SLOPE_ERROR) & (np.arange(len(tau)) <= at)
     white = _mean_log(deviation * np.sqrt(tau), falling, error)
-    floor = white is not None and at > 0 and _flattens(curve, deviation, white)
+    floor = white is not None and at > 0 and _leaves_white_noise(curve, deviation, white)
     return Slopes(
         white=white,
         floor=float(deviation[at]) / FLOOR if floor else None,
@@ -117,7 +117,7 @@ def slopes_of(curve: AllanCurve, axis: int) -> Slopes:
     )
 
 
-def _flattens(curve: AllanCurve, deviation: FloatArray, white: float) -> bool:
+def _leaves_white_noise(curve: AllanCurve, deviation: FloatArray, white: float) -> bool:
     """Return whether the end of the curve has left the line of the white noise for certain."""
     least = deviation[-1] * (1.0 - ABOVE_SIGMAS * curve.relative_error[-1])
     return bool(least > white / math.sqrt(curve.tau[-1]))

@@ -22,7 +22,7 @@ def for_feet(given: Sequence[str]) -> dict[str, SensorCalibration]:
     """
     calibrations: dict[str, SensorCalibration] = {}
     for text in given:
-        for foot, sensor in _one(text).items():
+        for foot, sensor in _load_one(text).items():
             if foot in calibrations:
                 raise CalibrationError(f"two calibrations are given for the {foot} foot")
             calibrations[foot] = sensor
@@ -52,7 +52,7 @@ def sensor_calibration(path: str, foot: str) -> SensorCalibration:
     return sensor
 
 
-def _one(text: str) -> dict[str, SensorCalibration]:
+def _load_one(text: str) -> dict[str, SensorCalibration]:
     name, equals, path = text.partition("=")
     if equals and name in FEET:
         return {name: sensor_calibration(path, name)}

@@ -75,7 +75,7 @@ def _feet(contents: Contents) -> Iterator[str]:
         if foot in contents.stances:
             yield f"  {_stances(contents.stances[foot])}"
     if len(qualities) == len(FEET):
-        yield f"both feet: {_together(qualities['left'], qualities['right'])}"
+        yield f"both feet: {_compare_feet(qualities['left'], qualities['right'])}"
 
 
 def _stream(q: Quality) -> Iterator[str]:
@@ -117,7 +117,7 @@ def _stances(stances: StanceStatistics) -> str:
     )
 
 
-def _together(left: Quality, right: Quality) -> str:
+def _compare_feet(left: Quality, right: Quality) -> str:
     overlap = min(left.end_s, right.end_s) - max(left.start_s, right.start_s)
     start = (right.start_s - left.start_s) * 1e3
     both = f"share {overlap:.1f} s" if overlap > 0 else "share no time"

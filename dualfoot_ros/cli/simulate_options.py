@@ -65,7 +65,7 @@ def barometer(args: argparse.Namespace) -> BarometerConfig | None:
     """
     from ..simulation import BarometerConfig
 
-    given = _optional(args, "barometer", args.barometer is not None)
+    given = _sensor_settings(args, "barometer", args.barometer is not None)
     if args.barometer is None:
         return None
     return BarometerConfig.from_mapping({"worn": args.barometer, **given}, "barometer.")
@@ -81,11 +81,11 @@ def magnetometer(args: argparse.Namespace) -> MagnetometerConfig | None:
     """
     from ..simulation import MagnetometerConfig
 
-    given = _optional(args, "magnetometer", args.magnetometer)
+    given = _sensor_settings(args, "magnetometer", args.magnetometer)
     return MagnetometerConfig.from_mapping(given, "magnetometer.") if args.magnetometer else None
 
 
-def _optional(args: argparse.Namespace, name: str, present: bool) -> Mapping[str, Any]:
+def _sensor_settings(args: argparse.Namespace, name: str, present: bool) -> Mapping[str, Any]:
     """Return the ``--set`` parameters of a sensor that an option of its own switches on."""
     from ..core import ConfigError, nested
 

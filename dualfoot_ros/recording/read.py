@@ -71,7 +71,9 @@ def _read_raw(path: Path, topics: Topics, progress: Progress | None) -> _Raw:
     expected = _expected_types(topics)
     raw: dict[str, tuple[str, list[bytes]]] = {}
     with opened(path) as reader:
-        wanted = [c for c in reader.connections if c.topic in expected and not _foreign(c, topics)]
+        wanted = [
+            c for c in reader.connections if c.topic in expected and not _has_other_type(c, topics)
+        ]
         for connection in wanted:
             _check_type(connection.topic, connection.msgtype, expected[connection.topic])
             raw[connection.topic] = (connection.msgtype, [])
@@ -94,7 +96,7 @@ def _expected_types(topics: Topics) -> dict[str, str]:
     return expected | dict.fromkeys(topics.pressure.values(), PRESSURE_TYPE)
 
 
-def _foreign(connection: Connection, topics: Topics) -> bool:
+def _has_other_type(connection: Connection, topics: Topics) -> bool:
     """Return whether it has the name of a pressure topic but another type."""
     return connection.topic in topics.pressure.values() and connection.msgtype != PRESSURE_TYPE
 

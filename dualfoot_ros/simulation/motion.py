@@ -122,7 +122,7 @@ class Walker:
         self.bulge = np.zeros(count)
         self.scatter = np.clip(rng.standard_normal((count, 8)), -2.5, 2.5)
         self.knots, self.time_s = _knots(prints.end_s)
-        self._rest = self._restless(rng)
+        self._rest = self._wobble_and_sway(rng)
         self._phase()
 
     def motion(self) -> ShoeMotion:
@@ -205,7 +205,7 @@ class Walker:
         wave = gait.ringing(self.since_strike) * self.config.gait.impact * self.scale[self.now]
         return size * wave[:, None]
 
-    def _restless(self, rng: np.random.Generator) -> FloatArray:
+    def _wobble_and_sway(self, rng: np.random.Generator) -> FloatArray:
         """Return (N, 3) rad: wobble of the walking foot, tremor and sway of the standing one."""
         config, time_s = self.config.gait, self.time_s
         wobble = smooth_rate_noise(time_s, 0.12, rng) * config.wobble

@@ -64,23 +64,23 @@ def run(args: argparse.Namespace) -> int:
     config = unconstrained_config(tracker_config(args))
     fit = fit_spacing(track(load_usable(args.bag, args), config), config)
     if fit.swapped:
-        raise CalibrationError(_exchanged(fit))
+        raise CalibrationError(_exchanged_message(fit))
     files = [] if args.output is None else _write(args, fit)
     lines = [*_lines(args.bag, fit), *map(str, files)]
     common.show(args, {**_facts(fit), "files": [str(f) for f in files]}, lines)
     if not fit.seen:
-        common.warn(_unseen(fit))
+        common.warn(_unobservable_message(fit))
     return 0
 
 
-def _exchanged(fit: SpacingFit) -> str:
+def _exchanged_message(fit: SpacingFit) -> str:
     return (
         f"the left foot walks {-fit.feet.spacing_m:.2f} +- {fit.feet.std_m:.2f} m on the right of "
         "the right one, so the sensors are exchanged; exchange --left-topic and --right-topic"
     )
 
 
-def _unseen(fit: SpacingFit) -> str:
+def _unobservable_message(fit: SpacingFit) -> str:
     return (
         f"the walk turned through {math.degrees(fit.feet.turned_rad):.0f} degrees, which leaves "
         f"the distance of the feet unknown ({fit.feet.spacing_m:.2f} +- {fit.feet.std_m:.2f} m): "

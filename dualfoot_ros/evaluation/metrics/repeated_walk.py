@@ -33,7 +33,7 @@ def repeated(recording: Recording, times: int) -> Recording:
     left, right = align(recording.left, recording.right)
     if len(left) < 2:
         raise EvaluationError("the feet share no time, so there is nothing to repeat")
-    feet = [_in_a_row(foot, times) for foot in (left, right)]
+    feet = [_repeat_samples(foot, times) for foot in (left, right)]
     reference = recording.reference
     if reference is not None:
         markers = {foot: rounds(points, times) for foot, points in reference.markers.items()}
@@ -50,7 +50,7 @@ def repeated(recording: Recording, times: int) -> Recording:
     )
 
 
-def _in_a_row(series: ImuSeries, times: int) -> ImuSeries:
+def _repeat_samples(series: ImuSeries, times: int) -> ImuSeries:
     interval = int(np.median(np.diff(series.stamp_ns)))
     length = int(series.stamp_ns[-1] - series.stamp_ns[0]) + interval
     stamps = np.concatenate([series.stamp_ns + k * length for k in range(times)])

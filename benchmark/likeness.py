@@ -18,11 +18,10 @@ from pathlib import Path
 
 import numpy as np
 
-from dualfoot_ros.core import ImuSeries
+from dualfoot_ros.core import DualFootTracker, ImuSeries
 from dualfoot_ros.core.results.trajectory import stance_bounds
 from dualfoot_ros.core.samples.series import FloatArray, IntArray
-from dualfoot_ros.inspection.findings import require_usable
-from dualfoot_ros.inspection.stance_statistics import free_tracks
+from dualfoot_ros.inspection import require_usable, unconstrained_config
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 from dualfoot_ros.simulation import WalkConfig, simulate
 from dualfoot_ros.timing import align
@@ -44,7 +43,7 @@ ROWS = (  # name, columns of `foot_figures`, digits, whether the median or the r
 def walk_figures(left: ImuSeries, right: ImuSeries) -> FloatArray:
     """Return the figures (10,) of a walk: the mean of its feet's."""
     left, right = align(left, right)
-    tracks = free_tracks(left, right)
+    tracks = DualFootTracker(unconstrained_config()).run(left, right)
     apart = np.linalg.norm(tracks.left.position - tracks.right.position, axis=1)
     feet = [foot_figures(foot, tracks.left.stamp_ns, apart) for foot in (left, right)]
     return np.array(feet).mean(axis=0)

@@ -6,12 +6,12 @@ At rest the specific force is gravity, whichever way the sensor lies, so the par
 
 small in least squares, with a_k the mean of standstill k, b the bias, K = diag(k_x, k_y, k_z) the
 scale factors and T lower triangular with ones on its diagonal (Skog and Händel 2006; Tedaldi et
-al. 2014, eq. (10)).  T K is stored as one lower triangular matrix.  The norm cannot see a rotation
-of the three axes together, so the convention fixes it: the corrected x axis is the sensing x axis,
-the corrected y axis lies in the plane of the sensing x and y axes, z is square to both.
+al. 2014, eq. (10)).  T K is stored as one lower triangular matrix.  The norm does not depend on a
+rotation of the three axes together, so a convention fixes it: the corrected x axis is the sensing
+x axis, the corrected y axis lies in the plane of the sensing x and y axes, z is square to both.
 
-Six positions along the axes tell bias and scale and nothing on misalignment: f_x f_y is zero in
-all of them.  So the largest model whose every parameter the attitudes determine is taken.
+Six positions along the axes determine bias and scale but no misalignment: f_x f_y is zero in all
+of them.  So the largest model whose every parameter the attitudes determine is taken.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import CalibrationError, FloatArray
+from ..core import STANDARD_GRAVITY, CalibrationError, FloatArray
 from .sensor import Triad
 from .static import Segment, attitudes
 
@@ -34,7 +34,7 @@ SIDES = 0.7  # cosine within which an attitude has an axis up or down
 
 @dataclass(frozen=True)
 class Model:
-    """A set of parameters, the attitudes it needs, and how well each must come out."""
+    """A set of parameters: its name, their number, and the number of attitudes they need."""
 
     name: str
     words: str
@@ -60,13 +60,13 @@ NEEDS = {
 
 @dataclass(frozen=True)
 class AccelerometerFit:
-    """What was found.
+    """Bias, scale and misalignment with their standard deviations, and the residuals.
 
     Attributes
     ----------
     model : "full", "scale" or "bias"
     bias, matrix : (3,) m/s^2 and (3, 3), corrected = matrix (measured - bias)
-    bias_std, matrix_std : their standard deviations, from the attitudes and what repeats
+    bias_std, matrix_std : their standard deviations, from the attitudes and their repeatability
     residual_before, residual_after : (K,) m/s^2, norm of the specific force minus gravity
     attitudes : number of different attitudes
     redundancy : attitudes less parameters
@@ -88,7 +88,7 @@ class AccelerometerFit:
 
     @property
     def zero_by_construction(self) -> bool:
-        """Whether there are as many parameters as standstills, so that residuals prove nothing."""
+        """Whether the residuals are zero because there are as many parameters as attitudes."""
         return self.redundancy <= 0 and rms(self.residual_after) < 1e-6
 
     @property
@@ -97,7 +97,7 @@ class AccelerometerFit:
         return rms(self.residual_after) > DOUBTFUL
 
     def triad(self) -> Triad:
-        """Return what goes into the calibration file."""
+        """Return the entry of the calibration file."""
         about = {
             "model": self.model,
             "gravity": self.gravity,
@@ -114,14 +114,14 @@ class AccelerometerFit:
 
 
 def fit_accelerometer(
-    segments: Sequence[Segment], model: str = "auto", gravity: float = 9.80665
+    segments: Sequence[Segment], model: str = "auto", gravity: float = STANDARD_GRAVITY
 ) -> AccelerometerFit:
-    """Fit ``model``, or with "auto" the larger of "full" and "scale" that can be told.
+    """Fit ``model``, or with "auto" the larger of "full" and "scale" that can be determined.
 
     Raises
     ------
     CalibrationError
-        When the attitudes do not determine it: says how many there are and what is missing.
+        When the attitudes do not determine it; names their number and the missing ones.
     """
     names = ("full", "scale") if model == "auto" else (model,)
     reason = ""
@@ -138,14 +138,14 @@ def why_not(segments: Sequence[Segment], model: Model, gravity: float) -> str:
     need = f"{model.words} need {NEEDS[model.name]}"
     if count < model.attitudes:
         plural = "attitude is" if count == 1 else "attitudes are"
-        return f"{count} different {plural} too few: {need}{_missing(segments)}"
+        return f"{count} different {plural} too few: {need}{_missing_sides(segments)}"
     fitted = _fit(segments, model, gravity)
     std = np.concatenate([fitted.bias_std, np.diag(fitted.matrix_std), fitted.matrix_std[LOWER]])
-    std *= REPEATABILITY / fitted.sigma  # where the attitudes lie, not how well they fit
+    std *= REPEATABILITY / fitted.sigma  # by the geometry of the attitudes, not by their fit
     worst = int(np.argmax(std[: model.size] / LARGEST_STD[: model.size]))
     if std[worst] > LARGEST_STD[worst]:
         return (
-            f"the {count} attitudes do not tell {_parameter(worst)} (standard deviation "
+            f"the {count} attitudes do not determine {_parameter_name(worst)} (standard deviation "
             f"{std[worst]:.2g}, allowed {LARGEST_STD[worst]:g}): {need}"
         )
     return ""
@@ -153,8 +153,8 @@ def why_not(segments: Sequence[Segment], model: Model, gravity: float) -> str:
 
 def norms(vectors: FloatArray) -> FloatArray:
     """Return the norm (K,) of each row (K, 3)."""
-    found: FloatArray = np.linalg.norm(vectors, axis=1)
-    return found
+    lengths: FloatArray = np.linalg.norm(vectors, axis=1)
+    return lengths
 
 
 def rms(values: FloatArray) -> float:
@@ -180,7 +180,7 @@ def _fit(segments: Sequence[Segment], model: Model, gravity: float) -> Accelerom
     misfit = 2.0 * solved.cost / redundancy if redundancy > 0 else 0.0
     sigma = max(REPEATABILITY, float(np.sqrt(misfit)))
     covariance = sigma**2 * np.linalg.pinv(solved.jac.T @ solved.jac, rcond=1e-12)
-    bias_std, matrix_std = _spread(np.sqrt(np.diag(covariance)))
+    bias_std, matrix_std = _unpack_std(np.sqrt(np.diag(covariance)))
     before, after = norms(means) - gravity, norms((means - bias) @ matrix.T) - gravity
     return AccelerometerFit(
         model.name,
@@ -207,7 +207,7 @@ def unpack(x: FloatArray) -> tuple[FloatArray, FloatArray]:
     return x[:3].copy(), matrix
 
 
-def _spread(std: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _unpack_std(std: FloatArray) -> tuple[FloatArray, FloatArray]:
     matrix = np.zeros((3, 3))
     if len(std) > 3:
         matrix[np.diag_indices(3)] = std[3:6]
@@ -216,7 +216,7 @@ def _spread(std: FloatArray) -> tuple[FloatArray, FloatArray]:
     return std[:3].copy(), matrix
 
 
-def _parameter(index: int) -> str:
+def _parameter_name(index: int) -> str:
     if index < 3:
         return f"the bias of {AXES[index]}"
     if index < 6:
@@ -225,8 +225,8 @@ def _parameter(index: int) -> str:
     return f"the misalignment of {AXES[row]} against {AXES[column]}"
 
 
-def _missing(segments: Sequence[Segment]) -> str:
-    """Say which sides have not been up."""
+def _missing_sides(segments: Sequence[Segment]) -> str:
+    """Return the sides that have not been up, in words."""
     ups = np.array([s.direction for s in segments])
     lacking = [
         f"{axis} {word}"

@@ -1,4 +1,4 @@
-"""The Allan deviation of a standstill, and the noise parameters that its slopes tell.
+"""The Allan deviation of a standstill, and the noise parameters from its slopes.
 
 Overlapping estimator, eq. (11) of Riley and Howe, Handbook of Frequency Stability Analysis (NIST
 SP 1065, 2008): with theta the integral of the signal, n samples of tau_0, tau = m tau_0,
@@ -20,7 +20,7 @@ import numpy as np
 from ..core import CalibrationError, FloatArray
 
 PER_OCTAVE = 4
-SHARE = 1.0 / 9.0  # of the record, the longest time told; its deviation is known to 25 %
+SHARE = 1.0 / 9.0  # of the record, the longest averaging time; its deviation is known to 25 %
 SLOPE_ERROR = 0.15  # a slope counts as that of white noise within this
 FLOOR = math.sqrt(2.0 * math.log(2.0) / math.pi)
 ABOVE_SIGMAS = 3.0  # the curve must be above the line of the white noise by this at its end
@@ -48,12 +48,12 @@ class AllanCurve:
 def overlapping(signal: FloatArray, interval_s: float, spans: Sequence[int]) -> FloatArray:
     """Return the overlapping Allan deviation (T,) of (n,) samples over ``spans`` (samples)."""
     theta = np.concatenate(([0.0], np.cumsum(signal - np.mean(signal)))) * interval_s
-    found = []
+    deviations = []
     for m in spans:
         second = theta[2 * m :] - 2.0 * theta[m:-m] + theta[: -2 * m]
         tau = m * interval_s
-        found.append(math.sqrt(float(np.mean(second**2)) / 2.0) / tau)
-    return np.array(found)
+        deviations.append(math.sqrt(float(np.mean(second**2)) / 2.0) / tau)
+    return np.array(deviations)
 
 
 def allan_curve(signals: FloatArray, interval_s: float) -> AllanCurve:
@@ -80,14 +80,14 @@ def allan_curve(signals: FloatArray, interval_s: float) -> AllanCurve:
 
 @dataclass(frozen=True)
 class Slopes:
-    """What one axis' curve tells; None where the curve does not show it.
+    """The noise parameters from the curve of one axis; None where the curve does not show them.
 
     Attributes
     ----------
     white : noise density N, unit sqrt(s)
-    floor : bias instability B, unit; ``floor_tau`` s is where
+    floor, floor_tau : bias instability B, unit, and the averaging time of the floor, s
     walk : random walk K of the bias, unit / sqrt(s)
-    lowest : the least deviation seen: no floor is above lowest / 0.664
+    lowest : the least deviation: no floor is above lowest / 0.664
     """
 
     white: float | None
@@ -107,7 +107,7 @@ def slopes_of(curve: AllanCurve, axis: int) -> Slopes:
     slope = _local_slope(tau, deviation)
     falling = (np.abs(slope + 0.5) < SLOPE_ERROR) & (np.arange(len(tau)) <= at)
     white = _mean_log(deviation * np.sqrt(tau), falling, error)
-    floor = white is not None and at > 0 and _flattens(curve, deviation, white)
+    floor = white is not None and at > 0 and _leaves_white_noise(curve, deviation, white)
     return Slopes(
         white=white,
         floor=float(deviation[at]) / FLOOR if floor else None,
@@ -117,7 +117,7 @@ def slopes_of(curve: AllanCurve, axis: int) -> Slopes:
     )
 
 
-def _flattens(curve: AllanCurve, deviation: FloatArray, white: float) -> bool:
+def _leaves_white_noise(curve: AllanCurve, deviation: FloatArray, white: float) -> bool:
     """Return whether the end of the curve has left the line of the white noise for certain."""
     least = deviation[-1] * (1.0 - ABOVE_SIGMAS * curve.relative_error[-1])
     return bool(least > white / math.sqrt(curve.tau[-1]))

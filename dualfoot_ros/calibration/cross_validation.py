@@ -1,4 +1,4 @@
-"""Whether a calibration holds for attitudes that it was not made from."""
+"""Cross-validation of an accelerometer calibration on attitudes that were left out of the fit."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from .static import Segment, attitudes
 
 @dataclass(frozen=True)
 class CrossValidation:
-    """Residuals of what was left out, m/s^2 RMS, without and with the calibration.
+    """Residuals of the data left out of the fit, m/s^2 RMS, without and with the calibration.
 
     ``how`` is "attitude" (each attitude left out in turn) or "half" (made from the first half of
-    every standstill, tried on the second, which shows what repeats and no more).
+    every standstill and tried on the second, which shows the repeatability and no more).
     """
 
     how: str
@@ -25,15 +25,15 @@ class CrossValidation:
     after: float
 
     def sentence(self) -> str:
-        """Say it in words."""
-        what = (
+        """Return the result in words."""
+        data = (
             "each attitude left out in turn"
             if self.how == "attitude"
-            else "first halves of the standstills against second halves (this shows only what "
-            "repeats; record more attitudes to see more)"
+            else "first halves of the standstills against second halves (this shows only the "
+            "repeatability; record more attitudes to see more)"
         )
         return (
-            f"cross-validation, {what}: {self.before:.4f} m/s^2 without, {self.after:.4f} m/s^2 "
+            f"cross-validation, {data}: {self.before:.4f} m/s^2 without, {self.after:.4f} m/s^2 "
             f"with the calibration ({MODELS[self.model].words})"
         )
 
@@ -52,17 +52,17 @@ def cross_validate(segments: Sequence[Segment], fit: AccelerometerFit) -> CrossV
         refit = fit_accelerometer(rest, fit.model, fit.gravity)
         before += (np.linalg.norm(left_out, axis=1) - fit.gravity).tolist()
         after += refit.residuals(left_out).tolist()
-    return _of("attitude", fit, before, after)
+    return _summarise("attitude", fit, before, after)
 
 
 def _halves(segments: Sequence[Segment], fit: AccelerometerFit) -> CrossValidation:
     refit = fit_accelerometer([s.half(0) for s in segments], fit.model, fit.gravity)
     means = np.array([s.half(1).mean for s in segments])
     before = np.linalg.norm(means, axis=1) - fit.gravity
-    return _of("half", fit, before.tolist(), refit.residuals(means).tolist())
+    return _summarise("half", fit, before.tolist(), refit.residuals(means).tolist())
 
 
-def _of(
+def _summarise(
     how: str, fit: AccelerometerFit, before: list[float], after: list[float]
 ) -> CrossValidation:
     rms = [float(np.sqrt(np.mean(np.square(v)))) for v in (before, after)]

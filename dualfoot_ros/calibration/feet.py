@@ -1,9 +1,8 @@
-"""Calibrations as they are given on the command line or to a node, put on their feet."""
+"""Calibrations of both feet from the files that a command line or a node names."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 from ..core import FEET, CalibrationError
 from ..recording import Recording
@@ -21,23 +20,18 @@ def for_feet(given: Sequence[str]) -> dict[str, SensorCalibration]:
     OSError
         When a file cannot be read.
     """
-    found: dict[str, SensorCalibration] = {}
+    calibrations: dict[str, SensorCalibration] = {}
     for text in given:
-        for foot, sensor in _one(text).items():
-            if foot in found:
+        for foot, sensor in _load_one(text).items():
+            if foot in calibrations:
                 raise CalibrationError(f"two calibrations are given for the {foot} foot")
-            found[foot] = sensor
-    return found
+            calibrations[foot] = sensor
+    return calibrations
 
 
 def calibrated(recording: Recording, feet: Mapping[str, SensorCalibration]) -> Recording:
     """Return the recording with the samples of each foot corrected."""
-    corrected = {
-        foot: sensor.apply(series)
-        for foot, sensor in feet.items()
-        if (series := recording.imu(foot)) is not None
-    }
-    return replace(recording, **corrected)  # type: ignore[arg-type]
+    return recording.corrected(feet)
 
 
 def sensor_calibration(path: str, foot: str) -> SensorCalibration:
@@ -53,12 +47,12 @@ def sensor_calibration(path: str, foot: str) -> SensorCalibration:
     calibration = Calibration.load(path)
     sensor = calibration.of(foot)
     if sensor is None:
-        there = ", ".join(calibration.sensors)
-        raise CalibrationError(f"calibration '{path}' is for {there}; there is none for {foot}")
+        named = ", ".join(calibration.sensors)
+        raise CalibrationError(f"calibration '{path}' is for {named}; it has none for {foot}")
     return sensor
 
 
-def _one(text: str) -> dict[str, SensorCalibration]:
+def _load_one(text: str) -> dict[str, SensorCalibration]:
     name, equals, path = text.partition("=")
     if equals and name in FEET:
         return {name: sensor_calibration(path, name)}

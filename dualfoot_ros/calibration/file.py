@@ -9,7 +9,7 @@
         accelerometer:
           bias: [-0.0172, 0.0347, -0.0153]          # m/s^2
           matrix: [[0.99749, 0.0, 0.0], [0.0, 0.99899, 0.0], [0.0, 0.0, 0.99699]]
-          about: {...}             # how it was found; not used
+          about: {...}             # details of the fit; not used
         gyro:
           bias: [-0.0431, -0.0257, -0.0402]         # rad/s; matrix is the identity if left out
 
@@ -47,15 +47,15 @@ class Calibration:
     sensors: Mapping[str, SensorCalibration] = field(default_factory=dict)
 
     def of(self, foot: str) -> SensorCalibration | None:
-        """Return what is known of the sensor on ``foot``; None when the file has nothing on it.
+        """Return the calibration of the sensor on ``foot``, None when the file has none.
 
-        A calibration that names no foot is for whatever sensor it is given to.
+        A calibration that names no foot is for the sensor it is given to.
         """
         return self.sensors.get(foot, self.sensors.get(ANY))
 
-    def with_triad(self, name: str, triad: str, found: Triad) -> Calibration:
+    def with_triad(self, name: str, triad: str, calibrated: Triad) -> Calibration:
         """Return this with one triad of one sensor put in or replaced."""
-        sensor = replace(self.sensors.get(name, SensorCalibration()), **{triad: found})
+        sensor = replace(self.sensors.get(name, SensorCalibration()), **{triad: calibrated})
         return Calibration({**self.sensors, name: sensor})
 
     def save(self, path: str | Path) -> None:
@@ -63,7 +63,7 @@ class Calibration:
         import yaml
 
         sensors = {
-            name: {triad: _plain(values) for triad, values in sensor.triads().items()}
+            name: {triad: _triad_document(values) for triad, values in sensor.triads().items()}
             for name, sensor in sorted(self.sensors.items())
         }
         document = {"format": FORMAT, "version": VERSION, "calibration": sensors}
@@ -77,7 +77,7 @@ class Calibration:
         Raises
         ------
         CalibrationError
-            When it is no such YAML; names the key, its value and what is allowed.
+            When it is no calibration file; names the key, its value and what is allowed.
         OSError
             When the file cannot be read.
         """
@@ -93,17 +93,12 @@ class Calibration:
             raise CalibrationError(f"calibration '{path}': {error}") from None
 
 
-def load_or_new(path: Path) -> Calibration:
-    """Return the calibration in ``path``, to be added to; an empty one if there is no file."""
-    return Calibration.load(path) if path.exists() else Calibration()
-
-
-def _plain(triad: Triad) -> dict[str, Any]:
-    found: dict[str, Any] = {
+def _triad_document(triad: Triad) -> dict[str, Any]:
+    document: dict[str, Any] = {
         "bias": [round(float(v), 9) for v in triad.bias],
         "matrix": [[round(float(v), 9) for v in row] for row in triad.matrix],
     }
-    return {**found, "about": dict(triad.about)} if triad.about else found
+    return {**document, "about": dict(triad.about)} if triad.about else document
 
 
 def _sensors(document: Any) -> dict[str, SensorCalibration]:

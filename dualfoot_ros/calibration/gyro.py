@@ -20,14 +20,14 @@ UNITS = {"gyro": "rad/s", "accelerometer": "m/s^2"}
 
 @dataclass(frozen=True)
 class GyroFit:
-    """Bias of the gyro, and what its noise and that of the accelerometer are.
+    """Bias of the gyro, and the noise of gyro and accelerometer.
 
     Attributes
     ----------
-    bias, bias_std : (3,) rad/s, and how far the mean of this standstill may be off
+    bias, bias_std : (3,) rad/s, and the standard deviation of the mean of this standstill
     standstill : the samples it comes from
     curves : triad -> Allan deviation of its axes
-    slopes : triad -> what the curve of each axis tells
+    slopes : triad -> noise parameters from the curve of each axis
     """
 
     bias: FloatArray
@@ -37,7 +37,7 @@ class GyroFit:
     slopes: Mapping[str, tuple[Slopes, ...]]
 
     def triad(self) -> Triad:
-        """Return what goes into the calibration file."""
+        """Return the entry of the calibration file."""
         about = {
             "bias_std": [round(float(v), 9) for v in self.bias_std],
             "standstill": round(self.standstill.duration_s, 3),
@@ -45,26 +45,27 @@ class GyroFit:
         return Triad(self.bias, np.eye(3), about)
 
     def noise(self, bias_time_s: float) -> dict[str, float]:
-        """Return the parameters of the filter that every axis tells, those of the worst one.
+        """Return the noise parameters that every axis shows, with the values of the worst axis.
 
         ``noise.*_bias`` drives a first-order Gauss-Markov bias of correlation time
-        ``bias_time_s``: with the random walk K where the curve shows one, otherwise with what
-        holds the deviation of that bias at the instability B, q = B sqrt(2 / bias_time).
+        ``bias_time_s``: with the random walk K where the curve shows one, otherwise with the
+        noise that holds the deviation of that bias at the instability B,
+        q = B sqrt(2 / bias_time).
         """
-        found = {}
+        parameters = {}
         for triad, axes in self.slopes.items():
             named = {
                 f"noise.{triad}": [s.white for s in axes],
                 f"noise.{triad}_bias": [driving_noise(s, bias_time_s) for s in axes],
             }
             for name, values in named.items():
-                told = [v for v in values if v is not None]
-                if len(told) == len(axes):
-                    found[name] = max(told)
-        return found
+                shown = [v for v in values if v is not None]
+                if len(shown) == len(axes):
+                    parameters[name] = max(shown)
+        return parameters
 
     def unseen(self) -> Iterator[str]:
-        """Say what the standstill is too short to show."""
+        """Yield a sentence for each noise that the standstill is too short to show."""
         for triad, axes in self.slopes.items():
             curve = self.curves[triad]
             end = f"up to {curve.tau[-1]:.1f} s, a ninth of the {curve.duration_s:.0f} s"
@@ -83,7 +84,7 @@ class GyroFit:
 
 
 def driving_noise(slopes: Slopes, bias_time_s: float) -> float | None:
-    """Return what drives the bias of one axis, or None where the curve does not show it."""
+    """Return the driving noise of the bias of one axis, None where the curve does not show it."""
     if slopes.walk is not None:
         return slopes.walk
     return None if slopes.floor is None else slopes.floor * math.sqrt(2.0 / bias_time_s)
@@ -97,7 +98,7 @@ def fit_gyro(
     Raises
     ------
     CalibrationError
-        When none has a standstill, the sensor turned steadily in it, or what it holds are no
+        When none has a standstill, the sensor turned steadily in it, or its values are no
         measurements.
     """
     config = config or StandstillConfig()
@@ -119,23 +120,23 @@ def fit_gyro(
 def _longest(
     recordings: Sequence[tuple[str, ImuSeries]], config: StandstillConfig
 ) -> tuple[str, ImuSeries]:
-    found = []
+    standstills = []
     for name, series in recordings:
         good = usable_samples(series, name)
         spans = still_spans(good, config)
         for span in spans:
             check_measured(good[span], name, "gyro")
-        found += [(name, good[span]) for span in spans]
-    if not found:
+        standstills += [(name, good[span]) for span in spans]
+    if not standstills:
         name, series = recordings[0]
         raise CalibrationError(no_standstill(series, name, config))
-    return max(found, key=lambda named: named[1].duration_s)
+    return max(standstills, key=lambda named: named[1].duration_s)
 
 
 def _bias_std(curve: AllanCurve, slopes: Sequence[Slopes]) -> FloatArray:
-    """Return how far the mean over the whole standstill may be off (3,), rad/s.
+    """Return the standard deviation (3,) rad/s of the mean over the whole standstill.
 
-    White noise averages out; what is at the bias instability does not.
+    White noise averages out; noise at the bias instability does not.
     """
     white = curve.deviation[-1] * math.sqrt(curve.tau[-1] / curve.duration_s)
     floor = [0.0 if s.floor is None else s.lowest for s in slopes]

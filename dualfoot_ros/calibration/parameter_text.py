@@ -1,4 +1,4 @@
-"""What was measured, as a parameter file that ``--config`` and the nodes take."""
+"""Measured parameters as a parameter file for ``--config`` and the nodes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a calibration is: bias and matrix of each triad of one sensor, and how to apply them."""
+"""The calibration of one sensor: bias and matrix of each triad, and their application."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Triad:
     ----------
     bias : (3,) m/s^2 or rad/s, in the axes of the samples
     matrix : (3, 3) dimensionless; scale factors and misalignment
-    about : how it was found, in named values; not used when it is applied
+    about : details of the fit by name; not used when it is applied
     """
 
     bias: FloatArray
@@ -63,9 +63,9 @@ class SensorCalibration:
 
     def triads(self) -> dict[str, Triad]:
         """Return the triads that are calibrated, by name."""
-        found = {name: getattr(self, name) for name in TRIADS}
-        return {name: triad for name, triad in found.items() if triad is not None}
+        both = {name: getattr(self, name) for name in TRIADS}
+        return {name: triad for name, triad in both.items() if triad is not None}
 
     def summary(self) -> str:
-        """Say in a line what is corrected."""
+        """Return the names of the corrected triads in one line."""
         return " and ".join(self.triads()) or "nothing"

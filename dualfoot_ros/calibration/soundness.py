@@ -1,4 +1,4 @@
-"""Whether what a sensor at rest delivered are measurements; each objection is a sentence."""
+"""Checks that the samples of a sensor at rest are measurements."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from ..core import CalibrationError, ImuSeries
+from ..core import STANDARD_GRAVITY, CalibrationError, ImuSeries
 from ..inspection import (
-    GRAVITY,
+    AXES,
     GRAVITY_ERROR,
     STUCK_SHARE,
+    Channel,
     Held,
     Quality,
     Stuck,
@@ -31,7 +32,7 @@ def usable_samples(series: ImuSeries, name: str) -> ImuSeries:
     Raises
     ------
     CalibrationError
-        When none can be used, or stamps or values show that they are no measurements.
+        When none can be used, or stamps or values are those of no measurement.
     """
     _check_stamps(series, name)
     quality = quality_of(series)
@@ -44,7 +45,7 @@ def usable_samples(series: ImuSeries, name: str) -> ImuSeries:
     _check_columns(good, name)
     for stuck in quality.stuck:
         if stuck.share > STUCK_SHARE:
-            raise CalibrationError(f"'{name}': {_stuck(stuck, good)}")
+            raise CalibrationError(f"'{name}': {_stuck_sentence(stuck, good)}")
     return good
 
 
@@ -52,13 +53,13 @@ def check_measured(still: ImuSeries, name: str, triad: str) -> None:
     """Raise CalibrationError when an axis of ``triad`` holds its value through a standstill."""
     held = [h for h in held_at_rest(still) if TRIADS[h.triad] == triad]
     if held:
-        raise CalibrationError(f"'{name}': {_held(held)}")
+        raise CalibrationError(f"'{name}': {_held_sentence(held)}")
 
 
 def doubts(
     series: ImuSeries, name: str, triad: str, standstills: list[ImuSeries]
 ) -> Iterator[str]:
-    """Say what is wrong with a recording that tells of ``triad`` all the same."""
+    """Yield the faults of a recording from which ``triad`` can be calibrated all the same."""
     quality = quality_of(series)
     if quality.not_finite:
         yield f"'{name}': {not_finite(quality)} and left out; repair the driver or the export"
@@ -66,16 +67,16 @@ def doubts(
         yield f"'{name}': the stamps jump back and go on from there; only what is before is used"
     good = clean(series).series
     for stuck in quality.stuck:
-        yield f"'{name}': {_stuck(stuck, good)}"
+        yield f"'{name}': {_stuck_sentence(stuck, good)}"
     for still in standstills:
         held = [h for h in held_at_rest(still) if TRIADS[h.triad] != triad]
         if held:
-            yield f"'{name}': {_held(held)}; the {triad} is not affected"
+            yield f"'{name}': {_held_sentence(held)}; the {triad} is not affected"
             return
 
 
 def not_finite(quality: Quality) -> str:
-    """Say how many samples are not finite."""
+    """Return the number of samples that are not finite, in words."""
     return (
         f"{quality.not_finite} of {quality.samples} samples are not finite (nan or inf; the first "
         f"is sample {quality.first_not_finite})"
@@ -107,10 +108,10 @@ def _check_columns(good: ImuSeries, name: str) -> None:
         return
     force = float(np.median(np.linalg.norm(good.specific_force, axis=1)))
     rate = float(np.median(np.linalg.norm(good.angular_rate, axis=1)))
-    if abs(force - GRAVITY) < GRAVITY_ERROR:
+    if abs(force - STANDARD_GRAVITY) < GRAVITY_ERROR:
         return
     for value, unit in ((rate, "rad/s"), (float(np.degrees(rate)), "deg/s")):
-        if abs(value - GRAVITY) < GRAVITY_ERROR:
+        if abs(value - STANDARD_GRAVITY) < GRAVITY_ERROR:
             raise CalibrationError(
                 f"'{name}': the specific force is {force:.3g} m/s^2 and the angular rate "
                 f"{value:.3g} {unit} in the median, so accelerometer and gyro seem to be "
@@ -118,25 +119,25 @@ def _check_columns(good: ImuSeries, name: str) -> None:
             )
 
 
-def _stuck(stuck: Stuck, good: ImuSeries) -> str:
+def _stuck_sentence(stuck: Stuck, good: ImuSeries) -> str:
     values = np.concatenate([good.specific_force, good.angular_rate], axis=1)
     at = int(np.argmin(np.abs((good.stamp_ns - good.stamp_ns[0]) * 1e-9 - stuck.first_s)))
-    if stuck.what == "sensor":
-        what = "the sensor repeats itself"
+    if stuck.what is Channel.SENSOR:
+        problem = "the sensor repeats itself"
         value = f"specific force {_text(values[at, :3])} m/s^2, rate {_text(values[at, 3:])} rad/s"
     else:
-        what = f"{stuck.what} is stuck while the others move"
-        triad, axis = WORDS.index(stuck.what[:-2]), "xyz".index(stuck.what[-1])
-        value = f"at {values[at, 3 * triad + axis]:.4g} {UNITS[triad]}"
+        problem = f"{stuck.what} is stuck while the others move"
+        column = AXES.index(stuck.what)
+        value = f"at {values[at, column]:.4g} {UNITS[column // 3]}"
     return (
-        f"{what} ({value}, first {stuck.first_s:.1f} s after the start and for up to "
+        f"{problem} ({value}, first {stuck.first_s:.1f} s after the start and for up to "
         f"{stuck.longest_s:.1f} s, {stuck.share:.0%} of the samples); check the "
         "sensor, and its driver or export, which may fill gaps with old values, and record again"
     )
 
 
-def _held(axes: Sequence[Held]) -> str:
-    """Say what the axes of one triad hold."""
+def _held_sentence(axes: Sequence[Held]) -> str:
+    """Return the values that the axes of one triad hold, in words."""
     words, unit = WORDS[axes[0].triad], UNITS[axes[0].triad]
     one = len(axes) == 1
     return (

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..core import FEET, CalibrationError, ImuSeries
+from ..core import FEET, FORWARD_LEFT_UP, CalibrationError, ImuSeries
 from ..recording import Topics, read_bag
 from ..recording.importers import read_sensor
-from ..recording.importers.axes import IDENTITY
 from .file import ANY
 
 EXPORT = ".csv"
@@ -19,7 +18,7 @@ def load_sources(
     paths: Sequence[Path],
     foot: str | None = None,
     *,
-    axes: str = IDENTITY,
+    axes: str = FORWARD_LEFT_UP,
     topics: Topics | None = None,
 ) -> dict[str, list[Named]]:
     """Return the recordings by sensor: "left", "right", or "sensor" where no foot is known.
@@ -34,23 +33,23 @@ def load_sources(
     RecordingError
         When a file cannot be read.
     """
-    found: dict[str, list[Named]] = {}
+    sources: dict[str, list[Named]] = {}
     for path in paths:
         if not path.exists():
             raise CalibrationError(f"there is no file '{path}'")
         for name, series in _load(path, foot, axes, topics):
-            found.setdefault(name, []).append((path.stem or str(path), series))
-    if ANY in found and len(found) > 1:
+            sources.setdefault(name, []).append((path.stem or str(path), series))
+    if ANY in sources and len(sources) > 1:
         raise CalibrationError(
             "exports and bags are given together; say with --foot of which foot the exports are"
         )
-    return found
+    return sources
 
 
 def _load(path: Path, foot: str | None, axes: str, topics: Topics | None) -> list[Named]:
     if path.suffix.lower() == EXPORT:
         return [(foot or ANY, read_sensor(path, axes))]
-    if axes != IDENTITY:
+    if axes != FORWARD_LEFT_UP:
         raise CalibrationError(
             f"'{path}' is a bag, whose axes are forward-left-up already; --axes is for exports"
         )
@@ -59,9 +58,9 @@ def _load(path: Path, foot: str | None, axes: str, topics: Topics | None) -> lis
     held = [(name, series) for name in feet if (series := recording.imu(name)) is not None]
     if not any(len(series) for _, series in held):
         topic = recording.topics.of(feet[0]).imu
-        there = ", ".join(recording.imu_topics) or "none"
+        present = ", ".join(recording.imu_topics) or "none"
         raise CalibrationError(
             f"'{path}' has no samples of {' or '.join(feet)} ('{topic}'); its sensor_msgs/Imu "
-            f"topics are: {there}; name one with --left-topic or --right-topic"
+            f"topics are: {present}; name one with --left-topic or --right-topic"
         )
     return [(name, series) for name, series in held if len(series)]

@@ -1,6 +1,6 @@
-"""The distance of the feet in passing (c0), when they pass (kappa), and the step width.
+"""Distance of the feet in passing (c0), moment of passing (kappa), and step width of a walk.
 
-From the tracks of two independent feet (method ``zupt``), so no constraint assumes what is sought.
+From the tracks of two independent feet (method ``zupt``), so no constraint assumes the result.
 
 - The lateral distance in passing comes from the turns of the walk (see
   :mod:`dualfoot_ros.inspection.lateral_spacing`).
@@ -23,17 +23,20 @@ import numpy as np
 
 from ..core import (
     METHODS,
+    MID_STANCE,
     CalibrationError,
     FloatArray,
+    StancePassing,
     TrackerConfig,
     Trajectory,
     method_parameters,
+    stance_passings,
 )
-from ..inspection import SHARE, Passing, SideBySide, passings_of, side_by_side, straight
+from ..inspection import SideBySide, side_by_side, straight
 
 LEAST_PASSINGS = 8
 LEAST_STEPS = 3
-CURVE_DEG = 25.0  # two steps in which the walk turns by less tell kappa
+CURVE_DEG = 25.0  # two steps in which the walk turns by less count for kappa
 SEEN_STD_M = 0.05  # the spacing counts as seen when it is known this well
 SWAPPED_SIGMAS = 3.0
 KAPPA = (0.2, 0.8)
@@ -41,11 +44,11 @@ KAPPA = (0.2, 0.8)
 
 @dataclass(frozen=True)
 class SpacingFit:
-    """What a walk tells about the feet in passing.
+    """The feet in passing on one walk.
 
     Attributes
     ----------
-    feet : the lateral distance, its standard deviation, and what it rests on
+    feet : the lateral distance, its standard deviation, and the data behind them
     kappa, kappa_std : moment as a share of the stance, and its spread from step to step
     height_m : of the swinging foot's sensor at that moment
     step_bulge_m : by how much the swinging foot passes farther out than its footprints (negative:
@@ -60,11 +63,11 @@ class SpacingFit:
     kappas: tuple[float, ...]
     height_m: float
     step_bulge_m: float
-    passings: tuple[Passing, ...]
+    passings: tuple[StancePassing, ...]
 
     @property
     def seen(self) -> bool:
-        """Whether the walk turned enough to tell the lateral distance."""
+        """Whether the walk turned enough for the lateral distance to be observable."""
         return self.feet.std_m < SEEN_STD_M and self.feet.spacing_m > 0.0
 
     @property
@@ -97,14 +100,14 @@ class SpacingFit:
 
 
 def fit_spacing(trajectory: Trajectory, config: TrackerConfig | None = None) -> SpacingFit:
-    """Return what a walk tells; ``trajectory`` is of ``config``, which is a ``free_config``.
+    """Return the fit of a walk tracked with ``config``, an ``unconstrained_config``.
 
     Raises
     ------
     CalibrationError
-        When too few steps were found, or the feet are never abreast within a stance.
+        When there are too few steps, or the feet are never abreast within a stance.
     """
-    passings = passings_of(trajectory)
+    passings = stance_passings(trajectory)
     if len(passings) < LEAST_PASSINGS:
         raise CalibrationError(
             f"{len(passings)} steps were found in which one foot passes the other; needed are "
@@ -140,7 +143,7 @@ class _Detail:
     bulge: float
 
     @classmethod
-    def of(cls, trajectory: Trajectory, passing: Passing) -> _Detail:
+    def of(cls, trajectory: Trajectory, passing: StancePassing) -> _Detail:
         tracks = (trajectory.left, trajectory.right)
         standing, swinging = tracks[passing.standing], tracks[1 - passing.standing]
         at = passing.epoch
@@ -169,9 +172,11 @@ def _on_chord(
     return point
 
 
-def _kappas(passings: Sequence[Passing], details: Sequence[_Detail], lag_s: float) -> list[float]:
+def _kappas(
+    passings: Sequence[StancePassing], details: Sequence[_Detail], lag_s: float
+) -> list[float]:
     """Return kappa of the steps on straight parts of the walk, each a mean over three."""
-    found = []
+    kappas = []
     for k in range(1, len(passings) - 1):
         before, now, after = passings[k - 1 : k + 2]
         alternating = before.standing == after.standing != now.standing
@@ -183,13 +188,13 @@ def _kappas(passings: Sequence[Passing], details: Sequence[_Detail], lag_s: floa
             and d.stance_s > 0.0
         ):
             ahead = (details[k - 1].ahead + 2.0 * d.ahead + details[k + 1].ahead) / 4.0
-            found.append(SHARE + (lag_s - ahead / d.speed) / d.stance_s)
-    if len(found) < LEAST_STEPS:
+            kappas.append(MID_STANCE + (lag_s - ahead / d.speed) / d.stance_s)
+    if len(kappas) < LEAST_STEPS:
         raise CalibrationError(
-            f"{len(found)} steps are on a straight part of the walk; needed are {LEAST_STEPS}, so "
-            "walk some steps straight ahead"
+            f"{len(kappas)} steps are on a straight part of the walk; needed are {LEAST_STEPS}, "
+            "so walk some steps straight ahead"
         )
-    return found
+    return kappas
 
 
 def _spread(kappas: Sequence[float]) -> float:
@@ -199,7 +204,7 @@ def _spread(kappas: Sequence[float]) -> float:
 
 
 def _lag(trajectory: Trajectory, config: TrackerConfig) -> float:
-    """Return by how much the detector's window ends after its middle, s."""
+    """Return the time from the middle of the detector's window to its end, s."""
     period = float(np.median(np.diff(trajectory.left.stamp_ns))) * 1e-9
     window = max(2, round(config.stance.window / period))
     return 0.5 * (window - 1) * period

@@ -1,4 +1,4 @@
-"""The attitudes in which a sensor was held still."""
+"""Standstills of a sensor in different attitudes."""
 
 from __future__ import annotations
 
@@ -8,8 +8,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core import CalibrationError, FloatArray, ImuSeries, Parameters, parameter
-from ..inspection import GRAVITY, GRAVITY_ERROR, quality_of
+from ..core import (
+    STANDARD_GRAVITY,
+    CalibrationError,
+    FloatArray,
+    ImuSeries,
+    Parameters,
+    parameter,
+)
+from ..inspection import GRAVITY_ERROR, quality_of
 from ..timing import clean
 from .soundness import check_measured, not_finite, usable_samples
 
@@ -18,7 +25,7 @@ NEAR = np.cos(np.radians(15.0))  # attitudes closer than this are one
 
 @dataclass(frozen=True)
 class StandstillConfig(Parameters):
-    """When a sensor counts as still."""
+    """Limits within which a sensor counts as still."""
 
     window: float = parameter(
         0.5, "length of the windows that are checked", unit="s", minimum=0.1, maximum=5.0
@@ -85,7 +92,7 @@ def segments_of(
     Raises
     ------
     CalibrationError
-        When there is none, its gravity shows that the unit is wrong, or what it holds are no
+        When there is none, its gravity shows that the unit is wrong, or its values are no
         measurements.
     """
     config = config or StandstillConfig()
@@ -93,21 +100,21 @@ def segments_of(
     spans = still_spans(good, config)
     if not spans:
         raise CalibrationError(no_standstill(series, name, config))
-    found = []
+    segments = []
     for number, span in enumerate(spans, start=1):
         part = good[span]
         label = name if len(spans) == 1 else f"{name} ({number})"
         check_measured(part, label, "accelerometer")
         rate = part.angular_rate.mean(axis=0)
-        found.append(Segment(label, part.duration_s, part.specific_force, rate))
-        check_gravity(found[-1])
-    return found
+        segments.append(Segment(label, part.duration_s, part.specific_force, rate))
+        check_gravity(segments[-1])
+    return segments
 
 
 def check_gravity(segment: Segment) -> None:
-    """Raise CalibrationError when what is felt at rest is not gravity in m/s^2."""
+    """Raise CalibrationError when the specific force at rest is not gravity in m/s^2."""
     norm = float(np.linalg.norm(segment.mean))
-    if abs(norm - GRAVITY) > GRAVITY_ERROR:
+    if abs(norm - STANDARD_GRAVITY) > GRAVITY_ERROR:
         raise CalibrationError(
             f"'{segment.name}': the specific force at rest is {norm:.4g} m/s^2; allowed is "
             f"9.8 +- {GRAVITY_ERROR:g}, so check the unit, and that gravity was not taken out"
@@ -142,22 +149,24 @@ def still_spans(good: ImuSeries, config: StandstillConfig | None = None) -> list
 
 
 def no_standstill(series: ImuSeries, name: str, config: StandstillConfig) -> str:
-    """Say that a recording has no standstill, and how far it is from one."""
+    """Return a sentence on a recording without standstill: how still it is at best."""
     good, quality = clean(series).series, quality_of(series)
-    told = f"'{name}': no standstill of {config.duration:g} s in {good.duration_s:.1f} s"
+    problem = f"'{name}': no standstill of {config.duration:g} s in {good.duration_s:.1f} s"
     if quality.not_finite:
-        return f"{told}, for {not_finite(quality)}; repair the driver or the export"
+        return f"{problem}, for {not_finite(quality)}; repair the driver or the export"
     advice = "hold the sensor still, best on a table"
     size = _size(good, config)
     if not size:
-        return f"{told}; {advice}"
+        return f"{problem}; {advice}"
     windows = _windows(good, size)
     if not windows.whole.any():
-        return f"{told} without {quality.gaps} gaps; check the link of the sensor and the export"
+        return (
+            f"{problem} without {quality.gaps} gaps; check the link of the sensor and the export"
+        )
     force = float(windows.force[windows.whole].std(axis=1).max(axis=1).min())
     rate = float(windows.rate[windows.whole].std(axis=1).max(axis=1).min())
     return (
-        f"{told} (in the stillest {config.window:g} s the specific force scatters by "
+        f"{problem} (in the stillest {config.window:g} s the specific force scatters by "
         f"{force:.3g} m/s^2, allowed is {config.max_force_std:g}, and the angular rate by "
         f"{rate:.3g} rad/s, allowed is {config.max_rate_std:g}); {advice}"
     )

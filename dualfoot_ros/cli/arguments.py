@@ -1,19 +1,29 @@
-"""Arguments that several verbs share, and what is done with them."""
+"""Arguments that several verbs share: declared once, and read once."""
 
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..core import ConfigError
 from ..inspection import require_usable
-from ..recording import Recording, Topics, read_bag
+from ..recording import STORAGES, Recording, Topics, read_bag
 from .progress import progress
 
 if TYPE_CHECKING:
-    from ..evaluation.batch import Failure
+    from ..core import TrackerConfig
+
+    Arguments = argparse._ActionsContainer  # a parser or a group of one
+
+BAG = "rosbag2 folder (or its one file)"
+MOST_JOBS = 256
+
+
+def add_bag_argument(parser: Arguments, about: str = BAG) -> None:
+    """Add the positional ``BAG``."""
+    parser.add_argument("bag", metavar="BAG", help=about)
 
 
 def add_topic_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,13 +40,98 @@ def add_topic_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_usable_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add what :func:`load_usable` needs."""
+    """Add the topics and ``--allow-nan``, which :func:`load_usable` reads."""
     add_topic_arguments(parser)
     parser.add_argument(
         "--allow-nan",
         action="store_true",
         help="leave out samples with nan or inf and count them, instead of refusing the bag",
     )
+
+
+def add_method_argument(parser: Arguments) -> None:
+    """Add ``--method``, which :func:`tracker_config` reads."""
+    parser.add_argument("--method", metavar="M", help="method by name (default: that of --config)")
+
+
+def add_config_arguments(parser: Arguments, remark: str = "") -> None:
+    """Add ``--config`` and ``--set``, which :func:`tracker_config` reads."""
+    parser.add_argument(
+        "--config",
+        metavar="YAML",
+        help=f"parameter file, or a preset of the package by name{remark}",
+    )
+    add_set_argument(
+        parser, "one tracker parameter by its dotted name; may be repeated, wins over --config"
+    )
+
+
+def add_set_argument(parser: Arguments, about: str) -> None:
+    """Add ``--set``, which :func:`settings` reads."""
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help=about)
+
+
+def add_align_argument(parser: Arguments, about: str) -> None:
+    """Add ``--align``."""
+    parser.add_argument(
+        "--align",
+        choices=("first_strides", "umeyama4"),
+        default="first_strides",
+        help=f"{about} (default: %(default)s)",
+    )
+
+
+def add_jobs_argument(parser: Arguments) -> None:
+    """Add ``--jobs``."""
+    parser.add_argument(
+        "--jobs", metavar="N", type=int, help="processes (default: one for each core)"
+    )
+
+
+def add_json_argument(parser: Arguments) -> None:
+    """Add ``--json``."""
+    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
+
+
+def add_report_arguments(parser: Arguments) -> None:
+    """Add ``-o DIR`` of the verbs that write a report."""
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder for the files")
+
+
+def add_no_plots_argument(parser: Arguments, about: str = "write no figures to DIR") -> None:
+    """Add ``--no-plots``."""
+    parser.add_argument("--no-plots", action="store_true", help=about)
+
+
+def add_bag_output_argument(parser: Arguments) -> None:
+    """Add ``-o BAG`` of the verbs that write a bag."""
+    parser.add_argument("-o", "--output", metavar="BAG", type=Path, help="rosbag2 folder to write")
+
+
+def add_storage_arguments(parser: Arguments) -> None:
+    """Add ``--storage`` and ``--overwrite`` of the verbs that write a bag."""
+    parser.add_argument(
+        "--storage",
+        choices=STORAGES,
+        default=STORAGES[0],
+        help="storage of the bag (default: %(default)s)",
+    )
+    parser.add_argument("--overwrite", action="store_true", help="replace an existing bag")
+
+
+def read_topics(args: argparse.Namespace) -> Topics:
+    """Return the topics that ``args`` names."""
+    usual = Topics()
+    return Topics(
+        left=replace(usual.left, imu=args.left_topic),
+        right=replace(usual.right, imu=args.right_topic),
+    )
+
+
+def load_bag(path: str, args: argparse.Namespace) -> Recording:
+    """Read the bag ``path`` with the topics of ``args``, showing progress."""
+    with progress(f"reading {path}") as update:
+        return read_bag(path, topics=read_topics(args), progress=update)
 
 
 def load_usable(path: str, args: argparse.Namespace) -> Recording:
@@ -46,25 +141,49 @@ def load_usable(path: str, args: argparse.Namespace) -> Recording:
     return recording
 
 
-def load_bag(path: str, args: argparse.Namespace) -> Recording:
-    """Read the bag ``path`` with the topics of ``args``, showing progress."""
-    default = Topics()
-    topics = Topics(
-        left=replace(default.left, imu=args.left_topic),
-        right=replace(default.right, imu=args.right_topic),
-    )
-    with progress(f"reading {path}") as update:
-        return read_bag(path, topics=topics, progress=update)
+def save_bag(recording: Recording, args: argparse.Namespace) -> None:
+    """Write the bag ``args.output``, showing progress."""
+    from ..recording import write_bag
+
+    with progress(f"writing {args.output}") as update:
+        write_bag(
+            args.output,
+            recording,
+            storage=args.storage,
+            overwrite=args.overwrite,
+            progress=update,
+        )
 
 
-def setting(text: str) -> tuple[str, Any]:
-    """Return name and value of ``KEY=VALUE``, the value as YAML reads it.
+def tracker_config(args: argparse.Namespace) -> TrackerConfig:
+    """Return the configuration of ``--config``, ``--set`` and (where there is one) ``--method``.
 
     Raises
     ------
     ConfigError
-        When it is not of that form.
+        When a preset, a file or a parameter is not known or out of its range.
     """
+    from ..settings import load_config
+
+    overrides = settings(args)
+    if getattr(args, "method", None) is not None:
+        overrides["method"] = args.method
+    return load_config(args.config, overrides)
+
+
+def settings(args: argparse.Namespace) -> dict[str, Any]:
+    """Return the parameters of ``--set`` by dotted name.
+
+    Raises
+    ------
+    ConfigError
+        When one is not of the form KEY=VALUE.
+    """
+    return dict(_setting(text) for text in args.set)
+
+
+def _setting(text: str) -> tuple[str, Any]:
+    """Return name and value of ``KEY=VALUE``, the value as YAML reads it."""
     import yaml
 
     key, equals, value = text.partition("=")
@@ -77,17 +196,11 @@ def setting(text: str) -> tuple[str, Any]:
         return key, value
 
 
-def check_numbers(args: argparse.Namespace, **most: int) -> None:
-    """Refuse numbers (``jobs`` and those named) below 1 or above what is allowed."""
+def check_counts(args: argparse.Namespace, **most: int) -> None:
+    """Refuse counts (``jobs`` and those named) below 1 or above what is allowed."""
     from ..evaluation import EvaluationError
 
-    for name, limit in {"jobs": 256, **most}.items():
+    for name, limit in {"jobs": MOST_JOBS, **most}.items():
         value = getattr(args, name)
         if value is not None and not 1 <= value <= limit:
             raise EvaluationError(f"--{name} is {value}; allowed is 1 to {limit}")
-
-
-def complain(failed: dict[str, Failure], verb: str = "compare") -> None:
-    """Name on standard error what failed, and why."""
-    for name, failure in failed.items():
-        print(f"dualfoot {verb}: error: {name}: {failure.sentence}", file=sys.stderr)

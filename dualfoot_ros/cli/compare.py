@@ -3,12 +3,23 @@
 from __future__ import annotations
 
 import argparse
-import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .arguments import add_usable_arguments, check_numbers, complain, setting
+from .arguments import (
+    BAG,
+    add_align_argument,
+    add_config_arguments,
+    add_jobs_argument,
+    add_json_argument,
+    add_no_plots_argument,
+    add_report_arguments,
+    add_usable_arguments,
+    check_counts,
+    settings,
+)
+from .printing import print_failures, print_json, print_paths, table_console
 from .progress import progress
 
 if TYPE_CHECKING:
@@ -33,23 +44,14 @@ Exit code 1: some bags or methods gave no figures, and are named; 2: none did.
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    parser.add_argument("bag", metavar="BAG", nargs="+", help="rosbag2 folder (or its one file)")
+    parser.add_argument("bag", metavar="BAG", nargs="+", help=BAG)
     parser.add_argument(
         "--methods",
         metavar="LIST",
         default="all",
         help="methods and presets, separated by commas (default: all methods but rigid_pair)",
     )
-    parser.add_argument(
-        "--config", metavar="YAML", help="parameters of the methods (file or preset)"
-    )
-    parser.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        help="one parameter of all by its dotted name; may be repeated, wins over --config",
-    )
+    add_config_arguments(parser, ", of all methods")
     parser.add_argument(
         "--sweep",
         metavar="NAME=A:B:STEP",
@@ -64,25 +66,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=1,
         help="walk every recording N times in a row, as Ma and Särkkä 2023 (default: 1)",
     )
-    parser.add_argument(
-        "--align",
-        choices=("first_strides", "umeyama4"),
-        default="first_strides",
-        help="how to fix the frame to truth or markers (default: %(default)s)",
-    )
-    parser.add_argument(
-        "--jobs", metavar="N", type=int, help="processes (default: one for each core)"
-    )
+    add_align_argument(parser, "how to fix the frame to truth or markers")
+    add_jobs_argument(parser)
     _add_output(parser)
     add_usable_arguments(parser)
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("output")
-    group.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder for the files")
-    group.add_argument("--no-plots", action="store_true", help="write no figures to DIR")
+    add_report_arguments(group)
+    add_no_plots_argument(group)
     kind = group.add_mutually_exclusive_group()
-    kind.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
+    add_json_argument(kind)
     kind.add_argument("--csv", action="store_true", help="print CSV, nothing else")
 
 
@@ -91,26 +86,26 @@ def run(args: argparse.Namespace) -> int:
     from ..evaluation.batch import default_jobs
     from ..evaluation.reports import check_directory, flat
 
-    check_numbers(args, repeat=20)
+    check_counts(args, repeat=20)
     if args.output is not None:
         check_directory(args.output)
     jobs = _jobs(args, _cases(args))
-    found, failed = _run(jobs, args.jobs or default_jobs())
-    complain(failed)
-    if not found:
+    entries, failures = _run(jobs, args.jobs or default_jobs())
+    print_failures("compare", failures)
+    if not entries:
         return 2
-    rows = [flat(entry) for entry in found]
-    paths = [] if args.output is None else _write(args, found, rows, failed)
-    _print(args, found, rows, failed, paths)
-    return 1 if failed else 0
+    rows = [flat(entry) for entry in entries]
+    document = _document(entries, failures)
+    paths = [] if args.output is None else _write(args, entries, rows, document)
+    _print(args, rows, document, paths)
+    return 1 if failures else 0
 
 
 def _cases(args: argparse.Namespace) -> list[Case]:
     from ..evaluation.batch import Sweep, case_names, make_cases
 
-    overrides = dict(setting(text) for text in args.set)
     sweeps = [Sweep.parse(text) for text in args.sweep]
-    return make_cases(case_names(args.methods), args.config, overrides, sweeps)
+    return make_cases(case_names(args.methods), args.config, settings(args), sweeps)
 
 
 def _jobs(args: argparse.Namespace, cases: Sequence[Case]) -> list[Job]:
@@ -124,71 +119,65 @@ def _jobs(args: argparse.Namespace, cases: Sequence[Case]) -> list[Job]:
 
 
 def _run(jobs: Sequence[Job], processes: int) -> tuple[list[Entry], dict[str, Failure]]:
-    """Return what came of the jobs, in their order, and what failed by bag and case."""
+    """Return the entries in the order of their jobs, and the failures by bag and case."""
     from ..evaluation.batch import Failure, compare_one, run_each
 
-    found: dict[int, Entry] = {}
-    failed: dict[int, Failure] = {}
+    entries: dict[int, Entry] = {}
+    failures: dict[int, Failure] = {}
     with progress(f"{len(jobs)} runs") as update:
         for count, done in enumerate(run_each(compare_one, jobs, processes), start=1):
             if isinstance(done.result, Failure):
-                failed[done.index] = done.result
+                failures[done.index] = done.result
             else:
-                found[done.index] = done.result
+                entries[done.index] = done.result
             update(count / len(jobs))
-    named = _named(jobs, failed)
-    return [found[index] for index in sorted(found)], named
+    return [entries[index] for index in sorted(entries)], _name_failures(jobs, failures)
 
 
-def _named(jobs: Sequence[Job], failed: dict[int, Failure]) -> dict[str, Failure]:
-    """Return the failures by what failed: a bag once, where every method failed alike."""
-    named = {}
+def _name_failures(jobs: Sequence[Job], failures: Mapping[int, Failure]) -> dict[str, Failure]:
+    """Return the failures by bag and case; a bag once, where every case failed alike."""
+    named: dict[str, Failure] = {}
     for bag in dict.fromkeys(job.bag for job in jobs):
         own = [index for index, job in enumerate(jobs) if job.bag == bag]
-        why = {failed[index].sentence for index in own if index in failed}
-        if len(why) == 1 and all(index in failed for index in own):
-            named[bag] = failed[own[0]]
+        failed = [index for index in own if index in failures]
+        alike = len({failures[index].sentence for index in failed}) == 1
+        if alike and len(failed) == len(own):
+            named[bag] = failures[own[0]]
         else:
-            named |= {
-                f"{bag}, {jobs[index].case.label}": failed[index]
-                for index in own
-                if index in failed
-            }
+            named |= {f"{bag}, {jobs[index].case.label}": failures[index] for index in failed}
     return named
 
 
-def _document(found: Sequence[Entry], failed: dict[str, Failure]) -> dict[str, Any]:
+def _document(entries: Sequence[Entry], failures: Mapping[str, Failure]) -> dict[str, Any]:
     return {
-        "runs": [entry.to_dict() for entry in found],
-        "failed": {name: failure.sentence for name, failure in failed.items()},
+        "runs": [entry.to_dict() for entry in entries],
+        "failed": {name: failure.sentence for name, failure in failures.items()},
     }
 
 
 def _write(
     args: argparse.Namespace,
-    found: Sequence[Entry],
+    entries: Sequence[Entry],
     rows: list[dict[str, Any]],
-    failed: dict[str, Failure],
+    document: dict[str, Any],
 ) -> list[Path]:
-    from ..evaluation.reports import csv_text, staged
+    from ..evaluation.reports import csv_text, report_folder, write_json
 
-    with staged(args.output) as folder:
-        paths = [folder / "compare.json", folder / "compare.csv"]
-        text = json.dumps(_document(found, failed), indent=2, allow_nan=False)
-        paths[0].write_text(text + "\n", encoding="utf-8")
+    with report_folder(args.output) as folder:
+        paths = [write_json(folder / "compare.json", document), folder / "compare.csv"]
         paths[1].write_text(csv_text(rows), encoding="utf-8")
         if not args.no_plots:
-            paths += _draw(found, rows, folder)
+            paths += _draw(entries, rows, folder)
     return [args.output / path.name for path in paths]
 
 
-def _draw(found: Sequence[Entry], rows: list[dict[str, Any]], folder: Path) -> list[Path]:
+def _draw(entries: Sequence[Entry], rows: list[dict[str, Any]], folder: Path) -> list[Path]:
     from ..evaluation.reports.plots import draw_compared, draw_sweep
 
     paths = []
-    bags = list(dict.fromkeys(entry.bag for entry in found))
+    bags = list(dict.fromkeys(entry.bag for entry in entries))
     for index, bag in enumerate(bags):
-        own = [entry for entry in found if entry.bag == bag and entry.case.swept is None]
+        own = [entry for entry in entries if entry.bag == bag and entry.case.swept is None]
         name = Path(bag).name
         taken = any(Path(other).name == name for other in bags[:index])
         path = folder / f"tracks_{name}{f'_{index}' if taken else ''}.png"
@@ -201,28 +190,19 @@ def _draw(found: Sequence[Entry], rows: list[dict[str, Any]], folder: Path) -> l
 
 def _print(
     args: argparse.Namespace,
-    found: Sequence[Entry],
     rows: list[dict[str, Any]],
-    failed: dict[str, Failure],
+    document: dict[str, Any],
     paths: list[Path],
 ) -> None:
+    from ..evaluation.reports import csv_text, tables
+
     if args.json:
-        files = [str(path) for path in paths]
-        print(json.dumps({**_document(found, failed), "files": files}, allow_nan=False))
+        print_json({**document, "files": [str(path) for path in paths]})
         return
     if args.csv:
-        from ..evaluation.reports import csv_text
-
         print(csv_text(rows), end="")
         return
-    from rich.console import Console
-
-    from ..evaluation.reports import tables
-
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console.width = 160
+    console = table_console(160)
     for table in tables(rows):
         console.print(table)
-    for path in paths:
-        print(path)
+    print_paths(paths)

@@ -1,15 +1,23 @@
-"""``dualfoot consistency``: whether the covariance can be believed, over many simulated walks."""
+"""``dualfoot consistency``: NEES and NIS of the filter over many simulated walks."""
 
 from __future__ import annotations
 
 import argparse
-import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .arguments import check_numbers, complain, setting
+from .arguments import (
+    add_config_arguments,
+    add_jobs_argument,
+    add_json_argument,
+    add_method_argument,
+    add_report_arguments,
+    check_counts,
+    tracker_config,
+)
+from .printing import print_failures, print_json, print_paths, table_console
 from .progress import progress
 
 if TYPE_CHECKING:
@@ -24,22 +32,15 @@ examples:
   dualfoot consistency --route track --walks 20 -o report
   dualfoot consistency --errors mirrored --json         sensors that err alike, as mirror images
 
-1 is honest, above promises too much.  In brackets: where the figure lies in 95 of 100 cases if the
-filter is consistent.  The headings' common error is drawn by each walk's sensors once and for all.
+1 is a consistent filter, more an over-confident one.  The band holds the figure in 95 of 100 cases
+if the filter is consistent.  The common heading error of a walk is one draw of the sensor errors.
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    parser.add_argument("--method", metavar="M", help="method by name (default: that of --config)")
-    parser.add_argument("--config", metavar="YAML", help="parameter file or preset")
-    parser.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        help="one parameter by its dotted name; may be repeated, wins over --config",
-    )
+    add_method_argument(parser)
+    add_config_arguments(parser)
     group = parser.add_argument_group("walks")
     group.add_argument("--walks", metavar="N", type=int, default=50, help="default: %(default)s")
     group.add_argument("--seed", metavar="N", type=int, default=0, help="seed of the first walk")
@@ -50,33 +51,28 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--errors",
         choices=("independent", "mirrored"),
         default="independent",
-        help="how the errors of the two feet go together (default: %(default)s)",
+        help="relation of the errors of the two feet (default: %(default)s)",
     )
-    parser.add_argument("--jobs", metavar="N", type=int, help="processes (default: one a core)")
-    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder for the files")
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
+    add_jobs_argument(parser)
+    add_report_arguments(parser)
+    add_json_argument(parser)
 
 
 def run(args: argparse.Namespace) -> int:
     """Simulate, track, score, print; return the exit code."""
     from ..evaluation.batch import default_jobs, summarise
     from ..evaluation.reports import check_directory
-    from ..settings import load_config
 
-    check_numbers(args, walks=10000)
+    check_counts(args, walks=10000)
     if args.output is not None:
         check_directory(args.output)
-    overrides = dict(setting(text) for text in args.set)
-    if args.method is not None:
-        overrides["method"] = args.method
-    config = load_config(args.config, overrides)
-    walks, failed = _run(_jobs(args, config), args.jobs or default_jobs())
-    complain(failed, "consistency")
+    config = tracker_config(args)
+    walks, failures = _run(_jobs(args, config), args.jobs or default_jobs())
+    print_failures("consistency", failures)
     if not walks:
         return 2
-    scores = summarise(walks, config)
-    _report(args, config, scores, failed)
-    return 1 if failed else 0
+    _report(args, config, summarise(walks, config), failures)
+    return 1 if failures else 0
 
 
 def _jobs(args: argparse.Namespace, config: TrackerConfig) -> list[WalkJob]:
@@ -95,71 +91,68 @@ def _jobs(args: argparse.Namespace, config: TrackerConfig) -> list[WalkJob]:
 def _run(jobs: Sequence[WalkJob], processes: int) -> tuple[list[WalkScores], dict[str, Failure]]:
     from ..evaluation.batch import Failure, run_each, score_walk
 
-    found: dict[int, WalkScores] = {}
-    failed: dict[str, Failure] = {}
+    scores: dict[int, WalkScores] = {}
+    failures: dict[str, Failure] = {}
     with progress(f"{len(jobs)} walks") as update:
         for count, done in enumerate(run_each(score_walk, jobs, processes), start=1):
             if isinstance(done.result, Failure):
-                failed[f"walk of seed {jobs[done.index].seed}"] = done.result
+                failures[f"walk of seed {jobs[done.index].seed}"] = done.result
             else:
-                found[done.index] = done.result
+                scores[done.index] = done.result
             update(count / len(jobs))
-    return [found[index] for index in sorted(found)], failed
+    return [scores[index] for index in sorted(scores)], failures
 
 
 def _report(
     args: argparse.Namespace,
     config: TrackerConfig,
     scores: Sequence[Score],
-    failed: dict[str, Failure],
+    failures: Mapping[str, Failure],
 ) -> None:
-    from ..evaluation import plain
+    document = {
+        "method": config.method,
+        "walks": _describe_walks(args, len(failures)),
+        "scores": [asdict(score) for score in scores],
+        "failed": {name: failure.sentence for name, failure in failures.items()},
+        "parameters": config.to_mapping(),
+    }
+    title = (
+        f"{config.method}: {args.walks - len(failures)} walks, route {args.route}, {args.grade} "
+        f"sensors, {args.errors} errors"
+    )
+    paths = [] if args.output is None else _write(args.output, document, scores, title)
+    if args.json:
+        print_json({**document, "files": [str(path) for path in paths]})
+        return
+    _print(scores, title)
+    print_paths(paths)
 
-    walks = {
+
+def _describe_walks(args: argparse.Namespace, failed: int) -> dict[str, Any]:
+    return {
         "route": args.route,
-        "walks": args.walks - len(failed),
+        "walks": args.walks - failed,
         "seeds": [args.seed, args.seed + args.walks - 1],
         "rate_hz": args.rate,
         "grade": args.grade,
         "errors": args.errors,
     }
-    document = plain(
-        {
-            "method": config.method,
-            "walks": walks,
-            "scores": [asdict(score) for score in scores],
-            "failed": {name: failure.sentence for name, failure in failed.items()},
-            "parameters": config.to_mapping(),
-        }
-    )
-    title = (
-        f"{config.method}: {walks['walks']} walks, route {args.route}, {args.grade} sensors, "
-        f"{args.errors} errors"
-    )
-    paths = [] if args.output is None else _write(args.output, document, scores, title)
-    if args.json:
-        print(json.dumps({**document, "files": [str(p) for p in paths]}, allow_nan=False))
-        return
-    _print(scores, title)
-    for path in paths:
-        print(path)
 
 
 def _write(
     folder: Path, document: dict[str, Any], scores: Sequence[Score], title: str
 ) -> list[Path]:
-    from ..evaluation.reports import staged
+    from ..evaluation import plain
+    from ..evaluation.reports import report_folder, write_json
     from ..evaluation.reports.plots import draw_consistency
 
-    with staged(folder) as scratch:
-        figures = scratch / "consistency.json"
-        figures.write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
+    with report_folder(folder) as scratch:
+        figures = write_json(scratch / "consistency.json", plain(document))
         paths = [figures, draw_consistency(scores, scratch / "consistency.png", title)]
     return [folder / path.name for path in paths]
 
 
 def _print(scores: Sequence[Score], title: str) -> None:
-    from rich.console import Console
     from rich.table import Table
 
     from ..evaluation.reports import number
@@ -182,8 +175,6 @@ def _print(scores: Sequence[Score], title: str) -> None:
             number(score.error, 4),
             number(score.std, 4),
         )
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console.width = 120
+    console = table_console()
     console.print(table)
     console.print("m, m/s, rad, along one axis; mean: of NEES or NIS over its dimensions")

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import replace
 from pathlib import Path
 
-from ..core import FEET, FORCE_UNITS, RATE_UNITS, PressureSeries, RecordingError
+from ..core import (
+    FEET,
+    FORCE_UNITS,
+    FORWARD_LEFT_UP,
+    RATE_UNITS,
+    PressureSeries,
+    RecordingError,
+)
 from ..core.aids import WORN
 from ..inspection import findings_of
-from ..recording import METADATA, STORAGES, Recording, check_target, write_bag
+from ..recording import METADATA, Recording, check_target
 from ..recording.importers import FORMATS, ImportOptions, import_recording, read_pressure
-from ..recording.importers.axes import IDENTITY
-from .progress import progress
+from .arguments import add_bag_output_argument, add_storage_arguments, save_bag
+from .printing import print_warning
 
 HELP = "turn sensor exports and data sets into a bag"
 EXAMPLES = """\
@@ -35,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "source", nargs="*", type=Path, metavar="SOURCE", help="file or bag to import"
     )
-    parser.add_argument("-o", "--output", type=Path, metavar="BAG", help="bag to write (a folder)")
+    add_bag_output_argument(parser)
     names = ["auto", *(f.name for f in FORMATS)]
     parser.add_argument(
         "--format", default="auto", choices=names, help="format of the source (default: auto)"
@@ -47,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         )
     parser.add_argument(
         "--axes",
-        default=IDENTITY,
+        default=FORWARD_LEFT_UP,
         metavar="AXES",
         help="device axes that point forward, left and up, written --axes=+x+y+z "
         "(default: %(default)s; not for dual-feet)",
@@ -76,10 +82,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "may be repeated",
     )
     _add_bag_arguments(parser)
-    parser.add_argument(
-        "--storage", default="mcap", choices=STORAGES, help="storage of the bag (default: mcap)"
-    )
-    parser.add_argument("--overwrite", action="store_true", help="replace an existing bag")
+    add_storage_arguments(parser)
 
 
 def _add_bag_arguments(parser: argparse.ArgumentParser) -> None:
@@ -97,7 +100,7 @@ def _add_bag_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Import and say what was written."""
+    """Import, write the bag and describe it; return the exit code."""
     if args.list:
         _list()
         return 0
@@ -107,14 +110,7 @@ def run(args: argparse.Namespace) -> int:
     recording = import_recording(_options(args), args.format)
     columns = {**recording.pressure, **dict(_pressure(text) for text in args.pressure)}
     recording = replace(recording, pressure=columns)
-    with progress(f"writing {args.output}") as update:
-        write_bag(
-            args.output,
-            recording,
-            storage=args.storage,
-            overwrite=args.overwrite,
-            progress=update,
-        )
+    save_bag(recording, args)
     _report(args.output, recording)
     return 0
 
@@ -159,4 +155,4 @@ def _report(output: Path, recording: Recording) -> None:
         print(f"reference: {reference.summary()}")
     print(f"wrote {output}")
     for finding in findings_of(recording):
-        print(f"dualfoot import: warning: {finding.sentence}", file=sys.stderr)
+        print_warning("import", finding.sentence)

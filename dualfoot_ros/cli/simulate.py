@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import json
 from typing import TYPE_CHECKING
 
-from .progress import progress
+from .arguments import (
+    add_bag_output_argument,
+    add_json_argument,
+    add_set_argument,
+    add_storage_arguments,
+    save_bag,
+)
+from .printing import print_json
 from .simulate_options import barometer, configurations, magnetometer, show_choices
 
 if TYPE_CHECKING:
@@ -31,20 +37,14 @@ examples:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    parser.add_argument("-o", "--output", metavar="BAG", help="rosbag2 folder to write")
+    add_bag_output_argument(parser)
+    parser.add_argument("--list", action="store_true", help="show all choices, and exit")
     parser.add_argument(
-        "--list", action="store_true", help="show what there is to choose, and end"
+        "--seed", type=int, default=0, help="seed of the random numbers (default: 0)"
     )
-    parser.add_argument("--seed", type=int, default=0, help="seed of all chance (default: 0)")
     _add_walk(parser)
     _add_sensor(parser)
-    parser.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        help="any other parameter by its dotted name, see --list; may be repeated",
-    )
+    add_set_argument(parser, "any other parameter by its dotted name, see --list; may be repeated")
     _add_output(parser)
 
 
@@ -67,7 +67,7 @@ def _add_sensor(parser: argparse.ArgumentParser) -> None:
         "--errors",
         choices=("independent", "mirrored"),
         default="independent",
-        help="how the errors of the two feet go together (default: %(default)s)",
+        help="relation of the errors of the two feet (default: %(default)s)",
     )
     group.add_argument(
         "--one-shoe",
@@ -95,18 +95,12 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
         metavar="HZ",
         help="thin the truth in the bag to about this rate (default: that of the samples)",
     )
-    group.add_argument(
-        "--storage",
-        choices=("mcap", "sqlite3"),
-        default="mcap",
-        help="storage of the bag (default: %(default)s)",
-    )
-    group.add_argument("--overwrite", action="store_true", help="replace an existing bag")
-    group.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
+    add_storage_arguments(group)
+    add_json_argument(group)
 
 
 def run(args: argparse.Namespace) -> int:
-    """Simulate, write the bag and say what is in it; return the exit code."""
+    """Simulate, write the bag and describe it; return the exit code."""
     from ..simulation import SimulationError
 
     if args.list:
@@ -121,7 +115,6 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _simulate(args: argparse.Namespace) -> int:
-    from ..recording import write_bag
     from ..simulation import rigid_pair, simulate, walk
 
     walk_config, sensor, clocks = configurations(args)
@@ -130,15 +123,7 @@ def _simulate(args: argparse.Namespace) -> int:
         walked = rigid_pair(walked, args.one_shoe)
     aids = barometer(args), magnetometer(args)
     simulation = simulate(walked, sensor, clocks, args.seed, *aids)
-    recording = _recording(simulation, args)
-    with progress(f"writing {args.output}") as update:
-        write_bag(
-            args.output,
-            recording,
-            storage=args.storage,
-            overwrite=args.overwrite,
-            progress=update,
-        )
+    save_bag(_recording(simulation, args), args)
     _report(args, simulation)
     return 0
 
@@ -179,11 +164,11 @@ def _thinned(truth: PoseSeries, step: int) -> PoseSeries:
 def _report(args: argparse.Namespace, simulation: Simulation) -> None:
     from ..simulation import summary
 
-    facts = {"bag": args.output, "seed": args.seed, **summary(simulation)}
+    facts = {"bag": str(args.output), "seed": args.seed, **summary(simulation)}
     if args.one_shoe is not None:
         facts["lever_arm_m"] = _lever_arm(simulation)
     if args.json:
-        print(json.dumps(facts, allow_nan=False))
+        print_json(facts)
         return
     print(
         f"{args.output}: {facts['route']}, {facts['distance_m']:.0f} m in "

@@ -1,13 +1,13 @@
-"""What ``dualfoot simulate`` can be told, and the configurations that its options give."""
+"""The configurations that the options of ``dualfoot simulate`` give, and the list of them."""
 
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from .arguments import setting
+from .arguments import settings
+from .printing import print_json
 
 if TYPE_CHECKING:
     from ..simulation import (
@@ -25,7 +25,7 @@ PLAIN = ("route", "laps", "speed", "rate", "mounting", "standing", "stops", "sto
 def configurations(
     args: argparse.Namespace,
 ) -> tuple[WalkConfig, SensorConfig, tuple[ClockConfig, ClockConfig]]:
-    """Return what to simulate, from the options and the ``--set`` parameters.
+    """Return walk, sensor and clocks, from the options and the ``--set`` parameters.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def configurations(
 
     given = {name: getattr(args, name) for name in PLAIN}
     walk = {name: value for name, value in given.items() if value is not None}
-    walk.update(nested(dict(setting(text) for text in args.set)))
+    walk.update(nested(settings(args)))
     groups = {name: walk.pop(name, {}) for name in GROUPS}
     for name, values in groups.items():
         if not isinstance(values, Mapping):
@@ -65,7 +65,7 @@ def barometer(args: argparse.Namespace) -> BarometerConfig | None:
     """
     from ..simulation import BarometerConfig
 
-    given = _optional(args, "barometer", args.barometer is not None)
+    given = _sensor_settings(args, "barometer", args.barometer is not None)
     if args.barometer is None:
         return None
     return BarometerConfig.from_mapping({"worn": args.barometer, **given}, "barometer.")
@@ -81,16 +81,16 @@ def magnetometer(args: argparse.Namespace) -> MagnetometerConfig | None:
     """
     from ..simulation import MagnetometerConfig
 
-    given = _optional(args, "magnetometer", args.magnetometer)
+    given = _sensor_settings(args, "magnetometer", args.magnetometer)
     return MagnetometerConfig.from_mapping(given, "magnetometer.") if args.magnetometer else None
 
 
-def _optional(args: argparse.Namespace, name: str, there: bool) -> Mapping[str, Any]:
-    """Return what ``--set`` gives to a sensor that is only there if asked for."""
+def _sensor_settings(args: argparse.Namespace, name: str, present: bool) -> Mapping[str, Any]:
+    """Return the ``--set`` parameters of a sensor that an option of its own switches on."""
     from ..core import ConfigError, nested
 
-    given: Mapping[str, Any] = nested(dict(setting(text) for text in args.set)).get(name, {})
-    if given and not there:
+    given: Mapping[str, Any] = nested(settings(args)).get(name, {})
+    if given and not present:
         first = next(iter(given))
         raise ConfigError(f"'{name}.{first}' is set without a {name}; add --{name}")
     return given
@@ -114,8 +114,14 @@ def show_choices(as_json: bool) -> int:
         parameters = {
             p.name: {"default": p.default, "unit": p.unit, "allowed": p.allowed} for p in specs
         }
-        found = {"routes": routes, "mountings": list(known.MOUNTS), "grades": list(known.GRADES)}
-        print(json.dumps({**found, "parameters": parameters}))
+        print_json(
+            {
+                "routes": routes,
+                "mountings": list(known.MOUNTS),
+                "grades": list(known.GRADES),
+                "parameters": parameters,
+            }
+        )
         return 0
     print("routes:")
     for name, text in routes.items():

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import argparse
-import json
-import math
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .arguments import add_topic_arguments, load_bag
-from .progress import progress
+from .arguments import (
+    add_bag_argument,
+    add_bag_output_argument,
+    add_json_argument,
+    add_storage_arguments,
+    add_topic_arguments,
+    load_bag,
+    save_bag,
+)
+from .printing import print_json, table_console
 
 if TYPE_CHECKING:
     from ..recording import Recording
@@ -21,7 +26,7 @@ EXAMPLES = """\
 examples:
   dualfoot sync walk                        offset, skew and confidence; nothing is written
   dualfoot sync walk -o aligned             also the bag with the stamps of both feet on one clock
-  dualfoot sync walk --method motion        by the gait, whatever the arrival times say
+  dualfoot sync walk --method motion        by the gait, whatever the arrival times are
   dualfoot sync walk --method shake         by a shake of both devices held together
   dualfoot sync walk --json                 one JSON object on standard output
 
@@ -29,7 +34,7 @@ methods:
   arrival  log times against stamps, each foot: its clock on the host's (live recordings)
   shake    a time at which both devices were held together and turned to and fro
   motion   the gait: one foot swings while the other one stands (good to about 10 ms)
-  auto     arrival where the log times tell something, else shake, else motion
+  auto     arrival where the log times are of use, else shake, else motion
 
 By shake and motion the right foot goes on the left foot's clock, by arrival both go on the
 host's.  Ground truth in the bag keeps its stamps.
@@ -38,36 +43,30 @@ host's.  Ground truth in the bag keeps its stamps.
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    parser.add_argument("bag", metavar="BAG", help="rosbag2 folder (or its one file)")
-    parser.add_argument("-o", "--output", metavar="OUT", type=Path, help="rosbag2 folder to write")
+    add_bag_argument(parser)
+    add_bag_output_argument(parser)
     parser.add_argument(
         "--method",
         choices=("auto", "motion", "shake", "arrival"),
         default="auto",
-        help="what to go by (default: %(default)s)",
+        help="source of the offset (default: %(default)s)",
     )
-    parser.add_argument(
-        "--storage",
-        choices=("mcap", "sqlite3"),
-        default="mcap",
-        help="storage of the bag (default: %(default)s)",
-    )
-    parser.add_argument("--overwrite", action="store_true", help="replace an existing bag")
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
+    add_storage_arguments(parser)
+    add_json_argument(parser)
     add_topic_arguments(parser)
 
 
 def run(args: argparse.Namespace) -> int:
-    """Find the offset, write the bag, say what was found; return the exit code."""
+    """Find the offset, write the bag, print the result; return the exit code."""
     from ..recording import METADATA, check_target
 
     if args.output is not None:
         check_target(args.output, overwrite=args.overwrite, marker=METADATA)
     recording = load_bag(args.bag, args)
-    found = _synchronise(recording, args)
+    result = _synchronise(recording, args)
     if args.output is not None:
-        _write(recording, found, args)
-    _print(found, args)
+        _write(recording, result, args)
+    _print(result, args)
     return 0
 
 
@@ -89,65 +88,51 @@ def _synchronise(recording: Recording, args: argparse.Namespace) -> Synchronised
     return synchronise(left, right, arrivals, args.method)
 
 
-def _write(recording: Recording, found: Synchronised, args: argparse.Namespace) -> None:
-    from ..recording import write_bag
-
+def _write(recording: Recording, result: Synchronised, args: argparse.Namespace) -> None:
     notes = {
         **recording.notes,
-        "sync": f"{found.method}: right {found.offset_s:+.6f} s, {found.skew_ppm:+.2f} ppm, "
-        f"confidence {found.confidence:.2f}",
+        "sync": f"{result.method}: right {result.offset_s:+.6f} s, {result.skew_ppm:+.2f} ppm, "
+        f"confidence {result.confidence:.2f}",
     }
-    aligned = replace(recording, left=found.left, right=found.right, notes=notes)
-    with progress(f"writing {args.output}") as update:
-        write_bag(
-            args.output,
-            aligned,
-            storage=args.storage,
-            overwrite=args.overwrite,
-            progress=update,
-        )
+    save_bag(replace(recording, left=result.left, right=result.right, notes=notes), args)
 
 
-def _print(found: Synchronised, args: argparse.Namespace) -> None:
+def _print(result: Synchronised, args: argparse.Namespace) -> None:
     if args.json:
-        print(json.dumps(_values(found, args), allow_nan=False))
+        print_json(_document(result, args))
         return
-    from rich.console import Console
+    skew = f"{result.skew_ppm:+.1f} ppm" if result.skew_known else "unknown (recording too short)"
+    console = table_console()
+    lines = [
+        f"method      {result.method}",
+        f"offset      {result.offset_s:+.6f} s, to add to the right foot's stamps",
+        f"uncertainty {1e3 * result.std_s:.1f} ms (one sigma)",
+        f"skew        {skew}, the right foot's clock against the left foot's",
+        f"confidence  {result.confidence:.2f}",
+        *(f"note: {note}" for note in result.notes),
+        *([] if args.output is None else [str(args.output)]),
+    ]
+    for line in lines:
+        console.print(line, soft_wrap=True)
 
-    console = Console(highlight=False, soft_wrap=True)
-    skew = f"{found.skew_ppm:+.1f} ppm" if found.skew_known else "not told (recording too short)"
-    console.print(f"method      {found.method}")
-    console.print(f"offset      {found.offset_s:+.6f} s, to add to the right foot's stamps")
-    console.print(f"uncertainty {1e3 * found.std_s:.1f} ms (one sigma)")
-    console.print(f"skew        {skew}, the right foot's clock against the left foot's")
-    console.print(f"confidence  {found.confidence:.2f}")
-    for note in found.notes:
-        console.print(f"note: {note}")
-    if args.output is not None:
-        console.print(str(args.output))
 
-
-def _values(found: Synchronised, args: argparse.Namespace) -> dict[str, Any]:
+def _document(result: Synchronised, args: argparse.Namespace) -> dict[str, Any]:
     return {
         "bag": args.bag,
-        "method": found.method,
-        "offset_s": found.offset_s,
-        "std_s": found.std_s,
-        "skew_ppm": found.skew_ppm if found.skew_known else None,
-        "confidence": found.confidence,
+        "method": result.method,
+        "offset_s": result.offset_s,
+        "std_s": result.std_s,
+        "skew_ppm": result.skew_ppm if result.skew_known else None,
+        "confidence": result.confidence,
         "applied": {
             foot: {
                 "offset_ns": offset.offset_ns,
                 "at_ns": offset.center_ns,
                 "skew_ppm": offset.skew_ppm,
-                "detail": {k: _finite(v) for k, v in offset.detail.items()},
+                "detail": dict(offset.detail),
             }
-            for foot, offset in found.applied.items()
+            for foot, offset in result.applied.items()
         },
-        "notes": list(found.notes),
+        "notes": list(result.notes),
         "output": None if args.output is None else str(args.output),
     }
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None

@@ -19,6 +19,14 @@ from .errors import (
 from .parameters import Parameters, ParameterSpec, check, parameter
 from .refusals import Refusal, refusal_of
 from .results.events import FEET, Event, EventKind
+from .results.passings import (
+    MID_STANCE,
+    StanceEpochs,
+    StancePassing,
+    SwingPassings,
+    stance_passings,
+    swing_passings,
+)
 from .results.payloads import Details, DistanceLimit, Passing, Reason, YawTurn
 from .results.rows import clean_stance, to_trajectory, turn_rows
 from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stance_middles
@@ -31,7 +39,16 @@ from .rotation import (
     turn_quaternions,
     yaw_quaternion,
 )
-from .samples.mounting import IDENTITY, Matrix, MountingConfig, Vector, axes_matrix, dot
+from .samples.mounting import (
+    FORWARD_LEFT_UP,
+    IDENTITY,
+    RIGHT_FRONT_UP,
+    Matrix,
+    MountingConfig,
+    Vector,
+    axes_matrix,
+    dot,
+)
 from .samples.series import (
     BoolArray,
     FieldSeries,
@@ -49,10 +66,13 @@ __all__ = [
     "DEGREE",
     "FEET",
     "FORCE_UNITS",
+    "FORWARD_LEFT_UP",
     "GROUPS",
     "IDENTITY",
     "METHODS",
+    "MID_STANCE",
     "RATE_UNITS",
+    "RIGHT_FRONT_UP",
     "STANDARD_GRAVITY",
     "AlignmentConfig",
     "AlignmentError",
@@ -88,6 +108,9 @@ __all__ = [
     "SeriesError",
     "SimulationError",
     "SourceError",
+    "StanceEpochs",
+    "StancePassing",
+    "SwingPassings",
     "TimingError",
     "TrackerConfig",
     "Trajectory",
@@ -110,7 +133,9 @@ __all__ = [
     "refusal_of",
     "stance_bounds",
     "stance_middles",
+    "stance_passings",
     "stillness",
+    "swing_passings",
     "to_trajectory",
     "turn_quaternions",
     "turn_rows",

@@ -18,6 +18,7 @@ from .config_groups import (
 from .constraints import METHODS
 from .errors import ConfigError
 from .parameters import Parameters, ParameterSpec, parameter
+from .samples.units import STANDARD_GRAVITY
 
 GROUPS: dict[str, type[Parameters]] = {
     "alignment": AlignmentConfig,
@@ -37,7 +38,9 @@ class TrackerConfig(Parameters):
     method: str = parameter(
         "spacing_vector", "which system of the papers to run", choices=METHODS.names
     )
-    gravity: float = parameter(9.80665, "local gravity", unit="m/s^2", minimum=9.7, maximum=9.9)
+    gravity: float = parameter(
+        STANDARD_GRAVITY, "local gravity", unit="m/s^2", minimum=9.7, maximum=9.9
+    )
     alignment: AlignmentConfig = field(default_factory=AlignmentConfig)
     heading: HeadingConfig = field(default_factory=HeadingConfig)
     noise: NoiseConfig = field(default_factory=NoiseConfig)

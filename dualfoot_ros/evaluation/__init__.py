@@ -7,7 +7,8 @@ from .frames.yaw_transform import Align, Pair
 from .plain import plain
 from .published import published_trajectory
 from .reports.demo_table import Report, demo_report
-from .track import track, truth_of
+from .run import RunOptions, run
+from .track import pair_samples, track, track_samples, truth_of
 
 __all__ = [
     "Align",
@@ -16,10 +17,14 @@ __all__ = [
     "Options",
     "Pair",
     "Report",
+    "RunOptions",
     "demo_report",
     "evaluate",
+    "pair_samples",
     "plain",
     "published_trajectory",
+    "run",
     "track",
+    "track_samples",
     "truth_of",
 ]

@@ -1,4 +1,4 @@
-"""Evaluate one trajectory of both feet against whatever is known about the walk."""
+"""Evaluation of one trajectory of both feet against truth, markers, or itself."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..core import EvaluationError, EventKind, FootTrajectory, IntArray, Trajectory
+from ..inspection import Finding
 from ..recording import Reference
 from .frames.association import Footfalls
 from .frames.gauge import (
@@ -52,15 +53,19 @@ class Evaluation:
     Attributes
     ----------
     trajectory : aligned, and cut to the time of the truth
+    tracked : the same before alignment, whole, in the tracker's own frame
     truth : at the stamps of the trajectory, or None
     markers : foot -> (K, 3) m, the floor markers it stood on; may be empty
-    options, transforms : what aligned it (no transforms without a reference)
+    options, transforms : of the alignment (no transforms without a reference)
     aligned_to : "truth", "markers" or None
-    notes : sentences on what a reader of the figures should know
     closed_loop : the reference says that each foot ends where it started
+    notes : sentences for the reader of the figures
+    findings : warnings about the recording, where :func:`run` looked for them
+    run_s : s, CPU time of pairing and tracking, where :func:`run` did them
     """
 
     trajectory: Trajectory
+    tracked: Trajectory
     truth: Truth | None
     markers: Markers
     options: Options
@@ -72,6 +77,8 @@ class Evaluation:
     closed_loop: bool
     feet: FeetReport
     notes: tuple[str, ...]
+    findings: tuple[Finding, ...] = ()
+    run_s: float | None = None
 
     @property
     def feet_tracks(self) -> dict[str, FootTrajectory]:
@@ -80,7 +87,7 @@ class Evaluation:
 
     @property
     def alignment_name(self) -> str:
-        """Say in words how the frame was fixed."""
+        """Description of how the frame was fixed."""
         if self.aligned_to is None:
             return "none (no reference)"
         return self.options.words(self.aligned_to)
@@ -140,6 +147,7 @@ def evaluate(
     length = None if reference is None else reference.length_m
     if len(trajectory.left) < 2:
         raise EvaluationError(f"the trajectory has {len(trajectory.left)} epochs; 2 are needed")
+    tracked = trajectory
     if truth is not None:
         trajectory, truth = overlap(trajectory, truth)
     transforms, aligned_to = find_transforms(trajectory, truth, markers, options)
@@ -147,6 +155,7 @@ def evaluate(
     marker_report = _against_markers(trajectory, markers, options)
     return Evaluation(
         trajectory=moved,
+        tracked=tracked,
         truth=truth,
         markers=markers,
         options=options,
@@ -167,7 +176,7 @@ def evaluate(
 
 
 def event_counts(trajectory: Trajectory) -> dict[str, dict[str, int]]:
-    """Return how many events of each kind were applied and refused."""
+    """Return the numbers of applied and refused events by kind."""
     counts: dict[str, Counter[str]] = {kind.value: Counter() for kind in EventKind}
     for event in trajectory.events:
         counts[event.kind.value]["applied" if event.accepted else "refused"] += 1

@@ -1,4 +1,4 @@
-"""Plain values for JSON."""
+"""Values of any kind in the types that JSON has."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 
 
 def plain(value: Any) -> Any:
-    """Return ``value`` in types JSON knows; not-a-number and infinity, which it lacks, as None."""
+    """Return ``value`` in the types that JSON has; not-a-number and infinity become None."""
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple, set)):

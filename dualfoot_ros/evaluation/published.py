@@ -1,8 +1,8 @@
-"""Put what a live tracker published together to the trajectory an offline run would give.
+"""The trajectory that the estimates published by a live tracker make up.
 
 While a live graph runs, each estimate is published as it is known at its epoch.  Two things come
 later: the heading of a foot (announced by a HEADING event once its first strides are made) and
-the confirmed stance phases.  Both are in the published events, so the trajectory can be put right
+the confirmed stance phases.  Both are in the published events, so the trajectory can be corrected
 afterwards, as :meth:`dualfoot_ros.core.DualFootTracker.run` does it.
 """
 

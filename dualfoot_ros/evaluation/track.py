@@ -1,14 +1,17 @@
-"""Run the tracker over a recording: what `dualfoot evaluate` and the tables of methods do."""
+"""A recording through time alignment and tracker: paired samples, then the tracks of both feet."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 from ..core import (
     FEET,
     DualFootTracker,
     EvaluationError,
+    FieldSeries,
     ImuSeries,
+    PressureSeries,
     TrackerConfig,
     Trajectory,
     fields_of,
@@ -17,6 +20,25 @@ from ..core import (
 from ..recording import Recording
 from ..timing import align_with_report
 from .frames.gauge import Truth
+
+
+@dataclass(frozen=True)
+class PairedSamples:
+    """The samples of both feet on one time grid, and what the aids measured beside them.
+
+    Attributes
+    ----------
+    left, right : series with equal stamps
+    pressure : air pressure by "left", "right" or "both", as it was measured
+    fields : magnetic field by "left" or "right", as it was measured
+    counters : of the time alignment, what became of the samples
+    """
+
+    left: ImuSeries
+    right: ImuSeries
+    pressure: Mapping[str, PressureSeries]
+    fields: Mapping[str, FieldSeries]
+    counters: Mapping[str, int]
 
 
 def track(recording: Recording, config: TrackerConfig | None = None) -> Trajectory:
@@ -33,35 +55,52 @@ def track(recording: Recording, config: TrackerConfig | None = None) -> Trajecto
     DualFootError
         What time alignment and tracker refuse: two recordings in one, no standstill.
     """
-    samples = _samples(recording, "left"), _samples(recording, "right")
-    fields = fields_of(*samples)
-    if config is not None and config.aids.magnetic_heading and not fields:
-        raise EvaluationError(
-            "aids.magnetic_heading is on but the recording has no magnetic field of either foot; "
-            "record sensor_msgs/MagneticField on /left/imu/mag and /right/imu/mag with the stamps "
-            "of the samples, or leave the aid off"
-        )
-    left, right, report = align_with_report(*samples)
+    samples = pair_samples(recording)
+    trajectory = track_samples(samples, config)
+    _check_walked(trajectory, samples.left)
+    return trajectory
+
+
+def pair_samples(recording: Recording) -> PairedSamples:
+    """Return the samples of both feet on one time grid.
+
+    Raises
+    ------
+    EvaluationError
+        When a foot is missing or has no samples, or the feet share no time.
+    TimingError
+        When the stamps of a foot jump back and go on from there: two recordings in one.
+    """
+    measured = _samples(recording, "left"), _samples(recording, "right")
+    left, right, report = align_with_report(*measured)
     if len(left) == 0:
         raise EvaluationError(
             f"the feet share no time (overlap {report.overlap_s:.1f} s), so there are no pairs of "
             "samples; were both recorded together, and are their clocks synchronised?"
         )
-    found = DualFootTracker(config).run(left, right, recording.pressure, fields)
-    _check_walked(found, left)
-    prepared = {f"sync.{name}": count for name, count in report.counters.items()}
-    return replace(found, counters={**prepared, **found.counters})
+    return PairedSamples(left, right, recording.pressure, fields_of(*measured), report.counters)
 
 
-def _check_walked(found: Trajectory, samples: ImuSeries) -> None:
-    """Refuse a recording whose only standstill comes after the walk."""
-    late_s = (found.start_ns - int(samples.stamp_ns[0])) * 1e-9
-    strides = max(len(stance_middles(foot.stance)) for foot in (found.left, found.right)) - 1
-    if strides < 1 and late_s > 0.5 * samples.duration_s:
+def track_samples(samples: PairedSamples, config: TrackerConfig | None = None) -> Trajectory:
+    """Track paired samples, even if nobody walks in them.
+
+    Raises
+    ------
+    EvaluationError
+        When the magnetic heading is on without any magnetic field.
+    AlignmentError
+        When there is no standstill.
+    """
+    if config is not None and config.aids.magnetic_heading and not samples.fields:
         raise EvaluationError(
-            f"the first standstill ends {late_s:.1f} s into the {samples.duration_s:.1f} s of the "
-            "recording and nobody walked after it; stand still with both feet before walking"
+            "aids.magnetic_heading is on but the recording has no magnetic field of either foot; "
+            "record sensor_msgs/MagneticField on /left/imu/mag and /right/imu/mag with the stamps "
+            "of the samples, or leave the aid off"
         )
+    tracker = DualFootTracker(config)
+    trajectory = tracker.run(samples.left, samples.right, samples.pressure, samples.fields)
+    paired = {f"sync.{name}": count for name, count in samples.counters.items()}
+    return replace(trajectory, counters={**paired, **trajectory.counters})
 
 
 def truth_of(recording: Recording) -> Truth | None:
@@ -72,15 +111,26 @@ def truth_of(recording: Recording) -> Truth | None:
     return left, right
 
 
+def _check_walked(trajectory: Trajectory, samples: ImuSeries) -> None:
+    """Refuse a recording whose only standstill comes after the walk."""
+    late_s = (trajectory.start_ns - int(samples.stamp_ns[0])) * 1e-9
+    feet = trajectory.left, trajectory.right
+    strides = max(len(stance_middles(foot.stance)) for foot in feet) - 1
+    if strides < 1 and late_s > 0.5 * samples.duration_s:
+        raise EvaluationError(
+            f"the first standstill ends {late_s:.1f} s into the {samples.duration_s:.1f} s of the "
+            "recording and nobody walked after it; stand still with both feet before walking"
+        )
+
+
 def _samples(recording: Recording, foot: str) -> ImuSeries:
     samples = recording.imu(foot)
     if samples is not None and len(samples) > 0:
         return samples
     other = FEET[1 - FEET.index(foot)]
-    there = recording.imu(other)
-    only = there is not None and len(there) > 0
-    what = f"only the {other} foot" if only else "neither foot"
+    beside = recording.imu(other)
+    present = f"only the {other} foot" if beside is not None and len(beside) else "neither foot"
     raise EvaluationError(
-        f"no samples of the {foot} foot: the recording holds {what}, and both are needed; "
+        f"no samples of the {foot} foot: the recording holds {present}, and both are needed; "
         f"'dualfoot info' lists its topics, --{foot}-topic names another one"
     )

@@ -1,52 +1,51 @@
-"""What a recording or a live stream is worth: the checks behind ``info`` and the nodes."""
+"""Findings on a recording: what ``info`` prints and ``evaluate`` refuses."""
 
 from .exchanged_feet import walk_findings
-from .field_facts import FieldFacts
+from .field_facts import FieldFacts, field_facts
+from .finding import Finding, FindingKind, Severity
 from .findings import (
-    GRAVITY,
-    GRAVITY_ERROR,
-    STUCK_SHARE,
-    Finding,
-    fields_of,
+    check_usable,
     findings_of,
     qualities_of,
+    recorded_fields,
     require_usable,
 )
 from .lateral_spacing import SideBySide, side_by_side, straight
-from .passings import SHARE, Passing, passings_of
-from .pressure_facts import PressureFacts, facts_of, wearer
+from .pressure_facts import PressureFacts, pressure_facts, wearer_words
 from .quality import Quality, quality_of
-from .stance_statistics import Stances, free_config, free_tracks, stances_of
-from .stuck_values import TRIADS, Held, Stuck, held_at_rest
+from .sample_findings import GRAVITY_ERROR, STUCK_SHARE
+from .stance_statistics import StanceStatistics, stance_statistics, unconstrained_config
+from .stuck_values import AXES, TRIADS, Channel, Held, Stuck, held_at_rest
 
 __all__ = [
-    "GRAVITY",
+    "AXES",
     "GRAVITY_ERROR",
-    "SHARE",
     "STUCK_SHARE",
     "TRIADS",
+    "Channel",
     "FieldFacts",
     "Finding",
+    "FindingKind",
     "Held",
-    "Passing",
     "PressureFacts",
     "Quality",
+    "Severity",
     "SideBySide",
-    "Stances",
+    "StanceStatistics",
     "Stuck",
-    "facts_of",
-    "fields_of",
+    "check_usable",
+    "field_facts",
     "findings_of",
-    "free_config",
-    "free_tracks",
     "held_at_rest",
-    "passings_of",
+    "pressure_facts",
     "qualities_of",
     "quality_of",
+    "recorded_fields",
     "require_usable",
     "side_by_side",
-    "stances_of",
+    "stance_statistics",
     "straight",
+    "unconstrained_config",
     "walk_findings",
-    "wearer",
+    "wearer_words",
 ]

@@ -1,35 +1,34 @@
-"""Objections to a walk that only its tracks show: the sensors of the feet exchanged."""
+"""The finding that left and right sensor are exchanged, from the tracks of a walk."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 
-from ..core import Trajectory
-from .findings import Finding
+from ..core import Trajectory, stance_passings
+from .finding import Finding, FindingKind, Severity
 from .lateral_spacing import side_by_side
-from .passings import passings_of
 
 SIGMAS = 3.0
 LEAST_PASSINGS = 8
 
 
 def walk_findings(trajectory: Trajectory) -> Iterator[Finding]:
-    """Yield the objections to a walk tracked with :func:`~.stances.free_config`.
+    """Yield the findings on a walk tracked with :func:`~.stance_statistics.free_config`.
 
-    Which foot is on the left can be seen in turns only: there the outer foot makes the longer
-    way.  Without turns, or where the tracks have drifted too far, nothing is said.
+    Which foot is on the left is observable in turns only, where the outer foot makes the longer
+    way.  Without turns, or where the tracks have drifted too far, there is no finding.
     """
-    passings = passings_of(trajectory)
+    passings = stance_passings(trajectory)
     if len(passings) < LEAST_PASSINGS:
         return
     feet = side_by_side(passings)
     if feet.sigmas < -SIGMAS:
         yield Finding(
-            "warning",
-            "swapped",
+            FindingKind.EXCHANGED_FEET,
+            Severity.WARNING,
             f"left and right seem to be exchanged: in the turns of this walk "
             f"({math.degrees(feet.turned_rad):.0f} degrees) the left foot goes "
-            f"{-feet.spacing_m:.2f} +- {feet.std_m:.2f} m on the right of the right one; exchange "
-            "--left-topic and --right-topic, or the files on import",
+            f"{-feet.spacing_m:.2f} +- {feet.std_m:.2f} m on the right of the right one",
+            "exchange --left-topic and --right-topic, or the files on import",
         )

@@ -1,19 +1,19 @@
-"""How far the left foot is to the left of the right one, from two tracks that nothing ties.
+"""Lateral distance of the feet, left positive, from two tracks without constraints between them.
 
-A stand does not show it, nor does a straight line: where each track starts is a gauge.  A turn
-does, as in :mod:`dualfoot_ros.core.constraints.learnt_spacing`.  This is the offline form, for
-walks that are long or whose feet may have been exchanged: nothing says that the spacing is
-positive, and the ways in which two tracks drift apart are estimated with it.  At passing k, with n
-the unit vector to the left of the walk, f forward, and s the spacing, the separation (left minus
-right) is
+In a standstill and along a straight line it is unobservable, since the place where each track
+starts is a gauge.  In a turn it is observable, as in
+:mod:`dualfoot_ros.core.constraints.learnt_spacing`.  This is the offline form, for walks that are
+long or whose feet may have been exchanged: the spacing may have either sign, and the ways in which
+two tracks drift apart are estimated with it.  At passing k, with n the unit vector to the left of
+the walk, f forward, and s the spacing, the separation (left minus right) is
 
     u_k = s n_k + a_k + d g_k f_k + noise,    g = +1 when the right foot stands, else -1,
     a_k+1 = a_k + delta J w_k + epsilon w_k + wander,
 
 where a is the error of the placement, w the way from one passing to the next, J a quarter turn to
 the left, delta the difference of the tracks' headings, epsilon that of their scales, and d by how
-much the moment taken for the passing is early or late.  A Kalman filter of (s, a, delta, epsilon,
-d) is all it takes.  A turn lets the navigation filter correct the heading it had so far and with
+much the moment taken for the passing is early or late.  A Kalman filter estimates (s, a, delta,
+epsilon, d).  A turn lets the navigation filter correct the heading it had so far and with
 it the place, so the wander grows in turns with the way walked; a jump beyond that is taken as a
 new placement.
 """
@@ -26,7 +26,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .passings import Passing
+from ..core import StancePassing
 
 SPACING_STD_M = 0.3  # of either sign
 PLACEMENT_STD_M = 0.3
@@ -42,22 +42,22 @@ ACROSS_STD_M = 0.04
 ALONG_STD_M = 0.08
 JUMP_NIS = 20.0
 LEAST_STEPS = 5  # steps; fewer have no scatter
-FARTHEST_HEADING = 0.5  # rad; tracks that differ by more tell nothing any more
+FARTHEST_HEADING = 0.5  # rad; tracks that differ by more are not used
 
 S, A, DELTA, EPSILON, D = 0, slice(1, 3), 3, 4, 5
 
 
 @dataclass(frozen=True)
 class SideBySide:
-    """The estimate and what it rests on.
+    """The estimate and the data behind it.
 
     Attributes
     ----------
     spacing_m, std_m : lateral distance of the feet in passing, left positive
-    passings : how many were used
+    passings : number of those used
     turned_rad : span of the headings of the walk
-    jumps : how often the tracks were placed anew
-    scatter_m : how much the lateral distance varies from step to step
+    jumps : number of times that the tracks were placed anew
+    scatter_m : standard deviation of the lateral distance from step to step
     heading_difference_rad : of left minus right track, at the end
     """
 
@@ -75,7 +75,7 @@ class SideBySide:
         return self.spacing_m / self.std_m
 
 
-def side_by_side(passings: Sequence[Passing]) -> SideBySide:
+def side_by_side(passings: Sequence[StancePassing]) -> SideBySide:
     """Estimate the spacing from the passings of a walk; without turns it stays at 0 +- 0.3 m."""
     filter_ = _Filter()
     used = 0
@@ -105,10 +105,10 @@ class _Filter:
         first = [SPACING_STD_M**2, place, place, HEADING_STD**2, SCALE_STD**2, moment]
         self.p = np.diag(first)
         self.jumps = 0
-        self._last: Passing | None = None
+        self._last: StancePassing | None = None
         self._way_m = 0.0
 
-    def add(self, passing: Passing) -> None:
+    def add(self, passing: StancePassing) -> None:
         """Go on to ``passing`` and take it."""
         if self._last is not None:
             self._advance(passing, self._last)
@@ -127,7 +127,7 @@ class _Filter:
         self.x = self.x + gain @ innovation
         self.p = self.p - gain @ s @ gain.T
 
-    def _advance(self, passing: Passing, last: Passing) -> None:
+    def _advance(self, passing: StancePassing, last: StancePassing) -> None:
         way = passing.middle - last.middle
         self._way_m += float(np.linalg.norm(way))
         (a, b), (c, d) = last.forward, passing.forward
@@ -149,7 +149,7 @@ class _Filter:
         self.p[A, A] = (4.0 * PLACEMENT_STD_M**2 + square_m2) * np.eye(2)
 
 
-def _scatter(passings: Sequence[Passing]) -> float:
+def _scatter(passings: Sequence[StancePassing]) -> float:
     """Return the step-to-step scatter (m) of the lateral distance where the walk was straight.
 
     From second differences over one foot's steps, so that a steady drift does not count.
@@ -164,6 +164,6 @@ def _scatter(passings: Sequence[Passing]) -> float:
     return float(1.4826 * np.median(np.abs(bends)) / math.sqrt(6.0))
 
 
-def straight(first: Passing, last: Passing, within_deg: float = 10.0) -> bool:
+def straight(first: StancePassing, last: StancePassing, within_deg: float = 10.0) -> bool:
     """Return whether the walk went on in the same direction."""
     return float(first.forward @ last.forward) > math.cos(math.radians(within_deg))

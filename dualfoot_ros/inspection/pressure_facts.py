@@ -1,4 +1,4 @@
-"""The facts of an air pressure sensor's samples, and what there is to object to them."""
+"""Facts and findings on the samples of an air pressure sensor."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core import PressureSeries
 from ..core.aids import RANGE_PA, pressure_height
+from .finding import Finding, FindingKind, Severity
 from .quality import Quality
 
 HECTO = 100.0
@@ -16,18 +17,19 @@ HECTO = 100.0
 
 @dataclass(frozen=True)
 class PressureFacts:
-    """What can be said of one sensor.
+    """The samples of one sensor in figures.
 
     Attributes
     ----------
-    samples : all of them; ``out_of_range`` are no air pressure in Pa (or not finite),
-        ``out_of_order`` have a stamp that is not later than all before
+    samples : all samples
+    out_of_range : samples that are no air pressure in Pa, or not finite
+    out_of_order : samples whose stamp is not later than all before
     start_s, end_s : s, first and last stamp
     rate_hz : Hz, from the median interval
     median : Pa
-    lowest_m, highest_m : height of the standard atmosphere against the first second's, m, from
-        means over a second
-    noise_m : scatter of a single sample, m, from the second differences
+    lowest_m, highest_m : m, height in the standard atmosphere relative to the first second, from
+        means over one second
+    noise_m : m, standard deviation of a single sample, from the second differences
     """
 
     samples: int
@@ -42,7 +44,7 @@ class PressureFacts:
     noise_m: float
 
 
-def facts_of(series: PressureSeries) -> PressureFacts:
+def pressure_facts(series: PressureSeries) -> PressureFacts:
     """Return the facts of ``series``, which has at least one sample."""
     stamps, pressure = series.stamp_ns, series.pressure
     within = (pressure > RANGE_PA[0]) & (pressure < RANGE_PA[1])
@@ -68,44 +70,52 @@ def facts_of(series: PressureSeries) -> PressureFacts:
 
 def pressure_findings(
     pressure: Mapping[str, PressureSeries], qualities: Mapping[str, Quality]
-) -> Iterator[tuple[str, str]]:
-    """Yield name and sentence of every objection; none keeps a recording from being used."""
+) -> Iterator[Finding]:
+    """Yield the findings on the sensors of air pressure; all are warnings."""
     for worn, series in pressure.items():
-        facts, name = facts_of(series), wearer(worn)
+        facts, wearer = pressure_facts(series), wearer_words(worn)
         if facts.out_of_range:
-            yield (
-                "pressure_range",
-                f"pressure of {name}: {facts.out_of_range} of {facts.samples} samples are no air "
-                f"pressure in Pa (the median is {facts.median:.6g}){_unit_advice(facts.median)}",
-            )
+            yield _out_of_range(wearer, facts)
         if facts.out_of_order:
-            yield (
-                "pressure_stamps",
-                f"pressure of {name}: {facts.out_of_order} duplicate or out-of-order stamps are "
+            yield Finding(
+                FindingKind.PRESSURE_STAMPS,
+                Severity.WARNING,
+                f"pressure of {wearer}: {facts.out_of_order} duplicate or out-of-order stamps are "
                 "left out",
             )
         apart = [
             foot
-            for foot, q in qualities.items()
-            if facts.end_s < q.start_s or facts.start_s > q.end_s
+            for foot, quality in qualities.items()
+            if facts.end_s < quality.start_s or facts.start_s > quality.end_s
         ]
         if apart:
-            yield (
-                "pressure_clock",
-                f"pressure of {name} (from {facts.start_s:.3f} to {facts.end_s:.3f} s) shares no "
-                f"time with the {' and the '.join(apart)} foot; stamp it by the same clock",
+            yield Finding(
+                FindingKind.PRESSURE_CLOCK,
+                Severity.WARNING,
+                f"pressure of {wearer} (from {facts.start_s:.3f} to {facts.end_s:.3f} s) shares "
+                f"no time with the {' and the '.join(apart)} foot",
+                "stamp it by the same clock",
             )
 
 
-def wearer(worn: str) -> str:
-    """Return where a sensor is worn, in words."""
+def _out_of_range(wearer: str, facts: PressureFacts) -> Finding:
+    text = (
+        f"pressure of {wearer}: {facts.out_of_range} of {facts.samples} samples are no air "
+        f"pressure in Pa (the median is {facts.median:.6g})"
+    )
+    if RANGE_PA[0] < facts.median * HECTO < RANGE_PA[1]:
+        return Finding(
+            FindingKind.PRESSURE_RANGE,
+            Severity.WARNING,
+            f"{text}, so they are in hPa",
+            "publish Pa, as sensor_msgs/FluidPressure has it",
+        )
+    return Finding(FindingKind.PRESSURE_RANGE, Severity.WARNING, f"{text}; they are left out")
+
+
+def wearer_words(worn: str) -> str:
+    """Return in words where a sensor is worn: "left", "right" or "both" (the body)."""
     return "the body" if worn == "both" else f"the {worn} foot"
-
-
-def _unit_advice(median: float) -> str:
-    if RANGE_PA[0] < median * HECTO < RANGE_PA[1]:
-        return ", so they are in hPa; publish Pa, as sensor_msgs/FluidPressure has it"
-    return "; they are left out"
 
 
 def _means(heights: np.ndarray, size: int) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The facts of one foot's samples: counts, rate, jitter, gaps, standstill, units, clipping."""
+"""The samples of one foot in figures: counts, rate, jitter, gaps, standstill, units, clipping."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from ..core import FloatArray, ImuSeries
 from ..timing import AlignerConfig, clean
 from .standstill import Stand, first_stand
-from .stuck_values import Stuck, stuck_of
+from .stuck_values import Stuck, find_stuck
 
 CLIP_RATE = 4.0  # rad/s and m/s^2: below this an extreme that repeats is no clipping
 CLIP_FORCE = 15.0
@@ -17,7 +17,7 @@ CLIP_FORCE = 15.0
 
 @dataclass(frozen=True)
 class Quality:
-    """What can be said of the samples of one foot.
+    """The samples of one foot in figures.
 
     Attributes
     ----------
@@ -33,7 +33,7 @@ class Quality:
     median_force, high_rate : median of |specific force|; 98 % quantile of |angular rate|
     peak_force, peak_rate : greatest absolute value of an axis
     clipped_force, clipped_rate : samples at the end of the range
-    stuck : what repeats itself
+    stuck : axes, or the whole sensor, that repeat their values
     """
 
     samples: int
@@ -95,7 +95,7 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
         peak_rate=float(np.abs(good.angular_rate).max(initial=0.0)),
         clipped_force=clipped(good.specific_force, CLIP_FORCE),
         clipped_rate=clipped(good.angular_rate, CLIP_RATE),
-        stuck=stuck_of(good),
+        stuck=find_stuck(good),
     )
 
 

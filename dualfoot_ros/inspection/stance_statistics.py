@@ -1,4 +1,4 @@
-"""Where the two feet stood, as the tracker sees it without any constraint between them."""
+"""Stances of both feet in figures, and the configuration that tracks them without constraints."""
 
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import (
-    DualFootTracker,
-    FootTrajectory,
-    ImuSeries,
-    TrackerConfig,
-    Trajectory,
-    stance_bounds,
-)
-from ..timing import AlignerConfig, align
+from ..core import FootTrajectory, TrackerConfig, Trajectory, stance_bounds
 
 
 @dataclass(frozen=True)
-class Stances:
-    """The stances of one foot: how many, their median length (s), their share of the walk."""
+class StanceStatistics:
+    """The stances of one foot.
+
+    Attributes
+    ----------
+    count : their number
+    median_s : s, median length; nan without stances
+    share : of the walk (from the end of the first stance to the start of the last), 0 to 1
+    distance_m : m, walked from stance to stance
+    """
 
     count: int
     median_s: float
@@ -27,13 +27,15 @@ class Stances:
     distance_m: float
 
 
-def free_config(config: TrackerConfig) -> TrackerConfig:
-    """Return what tracks the feet with nothing between them, for those who compare the tracks.
+def unconstrained_config(config: TrackerConfig | None = None) -> TrackerConfig:
+    """Return the configuration that tracks each foot by itself, with stances as in ``config``.
 
-    Only what finds stands and stances, and where the sensors sit, is taken over.  A constraint or
-    an aid would bend the tracks (a field turns with each sensor's own iron), and so would another
-    noise or first heading: how far two tracks drift apart is known of the default filter alone.
+    Two such tracks can be compared.  Only the parameters of standstills and stances, and where the
+    sensors sit, are taken over.  A constraint or an aid would bend the tracks (a magnetic field
+    turns with each sensor's own iron), and so would another noise or first heading: how far two
+    tracks drift apart is known of the default filter alone.
     """
+    config = config or TrackerConfig()
     return TrackerConfig(
         method="zupt",
         gravity=config.gravity,
@@ -43,29 +45,16 @@ def free_config(config: TrackerConfig) -> TrackerConfig:
     )
 
 
-def free_tracks(
-    left: ImuSeries, right: ImuSeries, sync: AlignerConfig | None = None
-) -> Trajectory:
-    """Track both feet without any constraint between them.
-
-    Raises
-    ------
-    AlignmentError
-        Without a standstill.
-    """
-    return DualFootTracker(TrackerConfig(method="zupt")).run(*align(left, right, sync))
+def stance_statistics(trajectory: Trajectory) -> dict[str, StanceStatistics]:
+    """Return the statistics of both feet by name."""
+    return {"left": _summarise(trajectory.left), "right": _summarise(trajectory.right)}
 
 
-def stances_of(trajectory: Trajectory) -> dict[str, Stances]:
-    """Return the stances of both feet."""
-    return {"left": _of(trajectory.left), "right": _of(trajectory.right)}
-
-
-def _of(foot: FootTrajectory) -> Stances:
+def _summarise(foot: FootTrajectory) -> StanceStatistics:
     bounds = stance_bounds(foot.stance)
     if not len(bounds):
-        return Stances(0, float("nan"), 0.0, 0.0)
+        return StanceStatistics(0, float("nan"), 0.0, 0.0)
     lengths = (foot.stamp_ns[bounds[:, 1] - 1] - foot.stamp_ns[bounds[:, 0]]) * 1e-9
     walk = slice(bounds[0, 1], bounds[-1, 0])
     share = float(foot.stance[walk].mean()) if walk.stop > walk.start else 0.0
-    return Stances(len(bounds), float(np.median(lengths)), share, foot.distance_m)
+    return StanceStatistics(len(bounds), float(np.median(lengths)), share, foot.distance_m)

@@ -1,4 +1,4 @@
-"""Where the sensor of one foot stood still, and what it read there."""
+"""The first standstill of a foot, and the mean readings of its sensor there."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class Stand:
     Attributes
     ----------
     start_s, end_s : s from the first sample of the foot
-    windows : how many still windows there are
+    windows : number of still windows
     specific_force : (3,) m/s^2, mean of the windows, the stiller ones counting more
     angular_rate : (3,) rad/s, mean in the same way: the gyro bias
     angular_rate_scatter : rad/s, greatest standard deviation of the windows' means

@@ -1,4 +1,4 @@
-"""Sensors that repeat themselves: a value that does not change is no measurement.
+"""Stuck sensors: values that do not change although a sensor that measures would change them.
 
 No real sensor gives the same six numbers for long, not even at rest; their last digits are noise.
 A coarse one may hold a single axis while it lies still, so an axis counts as stuck only while
@@ -7,11 +7,13 @@ another axis of its triad moves.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 
-from ..core import FloatArray, ImuSeries
+from ..core import STANDARD_GRAVITY, FloatArray, ImuSeries
 
 LEAST_S = 0.2  # a sensor that repeats itself while it cannot be at rest
 LEAST_AT_REST_S = 3.0
@@ -24,41 +26,67 @@ HELD = 0.3  # share of one value in a standstill; noise of several digits gives 
 NOISY = 0.1  # another axis of the triad that has less than this of one value is not coarse
 
 
+class Channel(StrEnum):
+    """One axis of a sensor, or all of it; the values are its name for people and in JSON."""
+
+    FORCE_X = "specific force x"
+    FORCE_Y = "specific force y"
+    FORCE_Z = "specific force z"
+    RATE_X = "angular rate x"
+    RATE_Y = "angular rate y"
+    RATE_Z = "angular rate z"
+    SENSOR = "sensor"
+
+
+AXES = tuple(channel for channel in Channel if channel is not Channel.SENSOR)
+"""The six axes in the order of the columns: specific force, then angular rate."""
+
+
 @dataclass(frozen=True)
 class Stuck:
-    """What repeats itself.
+    """A channel that repeats itself.
 
     Attributes
     ----------
-    what : "sensor", or triad and axis
+    what : the axis, or the whole sensor
     times : how often it got stuck
     first_s : s, when it first did, from the first sample
     longest_s : s
     share : of all samples
     """
 
-    what: str
+    what: Channel
     times: int
     first_s: float
     longest_s: float
     share: float
 
 
-def stuck_of(series: ImuSeries) -> tuple[Stuck, ...]:
+Run = tuple[int, int]
+"""First and last sample of a stretch."""
+
+
+def find_stuck(series: ImuSeries) -> tuple[Stuck, ...]:
     """Return what is stuck in the usable samples of one foot: the sensor, or single axes."""
     if len(series) < 2 * LEAST_SAMPLES:
         return ()
     values = np.hstack([series.specific_force, series.angular_rate])
     seconds = (series.stamp_ns - series.stamp_ns[0]) * 1e-9
-    whole = [r for r in _held(values) if _is_stuck(values, seconds, r)]
+    whole = [run for run in _constant_runs(values) if _is_stuck(values, seconds, run)]
     if whole:
-        return (_told("sensor", whole, seconds),)
-    found = []
-    for axis in range(6):
-        runs = [r for r in _held(values[:, [axis]]) if _moves_meanwhile(values, seconds, axis, r)]
+        return (_summarise(Channel.SENSOR, whole, seconds),)
+    return tuple(_stuck_axes(values, seconds))
+
+
+def _stuck_axes(values: FloatArray, seconds: FloatArray) -> Iterator[Stuck]:
+    for axis, channel in enumerate(AXES):
+        runs = [
+            run
+            for run in _constant_runs(values[:, [axis]])
+            if _others_move(values, seconds, axis, run)
+        ]
         if runs:
-            found.append(_told(f"{TRIADS[axis // 3]} {'xyz'[axis % 3]}", runs, seconds))
-    return tuple(found)
+            yield _summarise(channel, runs, seconds)
 
 
 @dataclass(frozen=True)
@@ -80,43 +108,42 @@ def held_at_rest(still: ImuSeries) -> tuple[Held, ...]:
     """
     if len(still) < 2 * LEAST_SAMPLES:
         return ()
-    found = []
+    held: list[Held] = []
     for triad, values in enumerate((still.specific_force, still.angular_rate)):
-        told = [_most(column) for column in values.T]
-        if min(share for _, share, _ in told) < NOISY or all(s == 1.0 for _, s, _ in told):
-            found += [
+        modes = [_mode(column) for column in values.T]
+        if min(share for _, share, _ in modes) < NOISY or all(s == 1.0 for _, s, _ in modes):
+            held += [
                 Held(triad, axis, value, share)
-                for axis, (value, share, at_end) in zip("xyz", told, strict=True)
+                for axis, (value, share, at_end) in zip("xyz", modes, strict=True)
                 if share > HELD and at_end
             ]
-    return tuple(found)
+    return tuple(held)
 
 
-def _most(column: FloatArray) -> tuple[float, float, bool]:
-    """Return the value that is most frequent, its share, and whether it is at an end."""
+def _mode(column: FloatArray) -> tuple[float, float, bool]:
+    """Return the most frequent value, its share, and whether it is the least or the greatest."""
     values, counts = np.unique(column, return_counts=True)
     most = int(np.argmax(counts))
     return float(values[most]), float(counts[most] / len(column)), most in (0, len(values) - 1)
 
 
-def _held(values: FloatArray) -> list[tuple[int, int]]:
-    """Return first and last sample of each stretch in which no value changes."""
+def _constant_runs(values: FloatArray) -> list[Run]:
+    """Return the stretches in which no value changes."""
     same = (np.diff(values, axis=0) == 0.0).all(axis=1)
     edges = np.flatnonzero(np.diff(np.concatenate(([0], same.astype(np.int8), [0]))))
     runs = [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
     return [(first, last) for first, last in runs if last - first + 1 >= LEAST_SAMPLES]
 
 
-def _is_stuck(values: FloatArray, seconds: FloatArray, run: tuple[int, int]) -> bool:
+def _is_stuck(values: FloatArray, seconds: FloatArray, run: Run) -> bool:
     first, last = run
-    off = abs(float(np.linalg.norm(values[first, :3])) - 9.80665)
+    off = abs(float(np.linalg.norm(values[first, :3])) - STANDARD_GRAVITY)
     rest = off < AT_REST[0] and float(np.abs(values[first, 3:]).max()) < AT_REST[1]
     return bool(seconds[last] - seconds[first] >= (LEAST_AT_REST_S if rest else LEAST_S))
 
 
-def _moves_meanwhile(
-    values: FloatArray, seconds: FloatArray, axis: int, run: tuple[int, int]
-) -> bool:
+def _others_move(values: FloatArray, seconds: FloatArray, axis: int, run: Run) -> bool:
+    """Return whether another axis of the triad moves while ``axis`` does not."""
     first, last = run
     if seconds[last] - seconds[first] < LEAST_AXIS_S:
         return False
@@ -125,9 +152,9 @@ def _moves_meanwhile(
     return bool(span.max() > MOVES[triad])
 
 
-def _told(what: str, runs: list[tuple[int, int]], seconds: FloatArray) -> Stuck:
+def _summarise(channel: Channel, runs: list[Run], seconds: FloatArray) -> Stuck:
     return Stuck(
-        what,
+        channel,
         len(runs),
         float(seconds[runs[0][0]]),
         max(float(seconds[last] - seconds[first]) for first, last in runs),

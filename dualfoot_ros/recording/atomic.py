@@ -1,11 +1,11 @@
-"""Write files and folders whole or not at all: beside the target first, then renamed."""
+"""Files and folders written whole or not at all: beside the target first, then renamed."""
 
 from __future__ import annotations
 
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -18,19 +18,15 @@ def write_text(path: Path, text: str) -> None:
     Raises
     ------
     RecordingError
-        When ``path`` is there and is no file (a folder, a device).
+        When ``path`` exists and is no ordinary file (a folder, a device).
     OSError
         When it cannot be written; names ``path``.
     """
     check_file(path, overwrite=True)
-    with _naming(path):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        scratch = path.with_name(f".{path.name}.{os.getpid()}.partial")
-        try:
-            scratch.write_text(text, encoding="utf-8")
-            scratch.replace(path)
-        finally:
-            scratch.unlink(missing_ok=True)
+    with _scratch_folder(path) as scratch, _naming(path):
+        written = scratch / path.name
+        written.write_text(text, encoding="utf-8")
+        written.replace(path)
 
 
 def check_file(path: Path, *, overwrite: bool = False) -> None:
@@ -61,17 +57,32 @@ def new_directory(path: Path, *, overwrite: bool = False, marker: str = "") -> I
         When no folder can be made there; names ``path``.
     """
     check_target(path, overwrite=overwrite, marker=marker)
-    with _naming(path):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        made = tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".partial", dir=path.parent)
-    scratch = Path(made)
-    try:
+    with _scratch_folder(path) as scratch:
         yield scratch / path.name
         if path.exists():
             path.rename(scratch / "replaced")
         (scratch / path.name).rename(path)
-    finally:
-        shutil.rmtree(scratch, ignore_errors=True)
+
+
+@contextmanager
+def new_files(directory: Path, *, replacing: Sequence[str] = ()) -> Iterator[Path]:
+    """Yield an empty folder to fill; its files go to ``directory`` when the block ends well.
+
+    ``directory`` is made, or kept with what it holds; of its files only those are removed that
+    match a pattern of ``replacing``.
+
+    Raises
+    ------
+    OSError
+        When no folder can be made there; names ``directory``.
+    """
+    with _scratch_folder(directory) as scratch:
+        yield scratch
+        directory.mkdir(exist_ok=True)
+        for stale in (path for pattern in replacing for path in directory.glob(pattern)):
+            stale.unlink()
+        for path in scratch.iterdir():
+            path.replace(directory / path.name)
 
 
 def check_target(path: Path, *, overwrite: bool = False, marker: str = "") -> None:
@@ -90,8 +101,20 @@ def check_target(path: Path, *, overwrite: bool = False, marker: str = "") -> No
 
 
 @contextmanager
+def _scratch_folder(path: Path) -> Iterator[Path]:
+    """Yield an empty folder on the file system of ``path``, removed when the block ends."""
+    with _naming(path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        made = tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".partial", dir=path.parent)
+    try:
+        yield Path(made)
+    finally:
+        shutil.rmtree(made, ignore_errors=True)
+
+
+@contextmanager
 def _naming(path: Path) -> Iterator[None]:
-    """Let an OSError name ``path``, as it was given, and not what is in between."""
+    """Let an OSError name ``path``, as it was given, and no scratch file."""
     try:
         yield
     except OSError as error:

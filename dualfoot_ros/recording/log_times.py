@@ -1,4 +1,4 @@
-"""When the samples of a bag arrived: the log times of its messages."""
+"""Arrival times of the samples of a bag: the log times of its messages."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def read_arrivals(path: str | Path, topics: Topics | None = None) -> dict[str, I
     """
     topics = topics or Topics()
     names = {topics.of(foot).imu: foot for foot in FEET}
-    found: dict[str, list[int]] = {foot: [] for foot in FEET}
+    log_times: dict[str, list[int]] = {foot: [] for foot in FEET}
     with opened(Path(path)) as reader:
         wanted = [c for c in reader.connections if c.topic in names]
         for connection, log_ns, _ in reader.messages(wanted) if wanted else ():
-            found[names[connection.topic]].append(log_ns)
-    return {foot: np.array(times, dtype=np.int64) for foot, times in found.items()}
+            log_times[names[connection.topic]].append(log_ns)
+    return {foot: np.array(times, dtype=np.int64) for foot, times in log_times.items()}

@@ -1,4 +1,4 @@
-"""Open a rosbag2 so that whatever is wrong with it becomes one sentence."""
+"""Opening of rosbag2 recordings; any defect becomes a RecordingError with one sentence."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ METADATA = "metadata.yaml"
 
 
 class TopicInfo(NamedTuple):
-    """What a bag says about one of its topics."""
+    """Type and number of messages of one topic of a bag."""
 
     msgtype: str
     messages: int

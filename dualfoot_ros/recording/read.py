@@ -1,4 +1,4 @@
-"""Read a rosbag2 recording into arrays."""
+"""Reading of rosbag2 recordings into arrays."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ def read_bag(
     """Read the samples, the truth and the reference of a rosbag2 recording (MCAP or sqlite3).
 
     ``path`` is the folder of the bag, or its one .mcap or .db3 file.  A topic that is not there
-    is None in the recording.  A pressure topic of another type is somebody else's and not read.
+    is None in the recording.  A topic named as one of pressure but of another type is not read.
     ``progress`` is called with the share read, 0 to 1.
 
     Raises
     ------
     RecordingError
-        When there is no bag, it is damaged, or a topic has another type; each names what and
-        where, and what to do.
+        When there is no bag, it is damaged, or a topic has another type; each names the topic
+        or file and the remedy.
     """
     path = Path(path)
     topics = topics or Topics()
@@ -71,7 +71,9 @@ def _read_raw(path: Path, topics: Topics, progress: Progress | None) -> _Raw:
     expected = _expected_types(topics)
     raw: dict[str, tuple[str, list[bytes]]] = {}
     with opened(path) as reader:
-        wanted = [c for c in reader.connections if c.topic in expected and not _foreign(c, topics)]
+        wanted = [
+            c for c in reader.connections if c.topic in expected and not _has_other_type(c, topics)
+        ]
         for connection in wanted:
             _check_type(connection.topic, connection.msgtype, expected[connection.topic])
             raw[connection.topic] = (connection.msgtype, [])
@@ -94,14 +96,14 @@ def _expected_types(topics: Topics) -> dict[str, str]:
     return expected | dict.fromkeys(topics.pressure.values(), PRESSURE_TYPE)
 
 
-def _foreign(connection: Connection, topics: Topics) -> bool:
-    """Return whether it has the common name "pressure" but is something else."""
+def _has_other_type(connection: Connection, topics: Topics) -> bool:
+    """Return whether it has the name of a pressure topic but another type."""
     return connection.topic in topics.pressure.values() and connection.msgtype != PRESSURE_TYPE
 
 
-def _check_type(topic: str, found: str, expected: str) -> None:
-    if found != expected:
-        raise RecordingError(f"topic '{topic}' holds {found}; allowed is {expected}")
+def _check_type(topic: str, msgtype: str, expected: str) -> None:
+    if msgtype != expected:
+        raise RecordingError(f"topic '{topic}' holds {msgtype}; allowed is {expected}")
 
 
 def _notes(reader: Reader) -> dict[str, str]:
@@ -146,10 +148,10 @@ def _truth(truth: messages.Table | None) -> PoseSeries | None:
 
 
 def _pressure(tables: dict[str, messages.Table], topics: Topics) -> dict[str, PressureSeries]:
-    there = {worn: tables.get(topic) for worn, topic in topics.pressure.items()}
+    present = {worn: tables.get(topic) for worn, topic in topics.pressure.items()}
     return {
         worn: PressureSeries(table.stamp_ns, table.values[:, 0])
-        for worn, table in there.items()
+        for worn, table in present.items()
         if table is not None and len(table.stamp_ns)
     }
 

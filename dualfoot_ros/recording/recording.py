@@ -1,13 +1,21 @@
-"""What a recording holds once it is in memory."""
+"""A recording in memory: samples of both feet, truth, reference, air pressure."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 from ..core import ImuSeries, PoseSeries, PressureSeries
 from .reference import Reference
 from .topics import Topics
+
+
+class Correction(Protocol):
+    """A correction of the samples of one sensor, such as its calibration."""
+
+    def apply(self, series: ImuSeries, /) -> ImuSeries:
+        """Return the corrected samples."""
 
 
 @dataclass(frozen=True)
@@ -16,13 +24,13 @@ class Recording:
 
     Attributes
     ----------
-    left, right : samples in the order they were recorded, stamps as recorded; None if missing
+    left, right : samples and stamps in the order in which they were recorded; None if missing
     left_truth, right_truth : true poses (velocity in the navigation frame), where there are any
     reference : floor markers and the like, where there are any
     pressure : air pressure of sensors worn on "left", "right", or on the body for "both"
     left_frame, right_frame : frame ids of the two sensors
-    notes : further facts that travel with the bag (where it comes from, which clock it has ...)
-    topics : the names under which the samples were looked for
+    notes : further facts that travel with the bag (its source, the clock of its stamps ...)
+    topics : the names of the topics that were read
     imu_topics : every topic of type sensor_msgs/Imu that the bag has
     """
 
@@ -41,6 +49,15 @@ class Recording:
     def imu(self, foot: str) -> ImuSeries | None:
         """Return the samples of ``foot``, "left" or "right"."""
         return self.left if foot == "left" else self.right
+
+    def corrected(self, corrections: Mapping[str, Correction]) -> Recording:
+        """Return the recording with the samples of the feet in ``corrections`` corrected."""
+        series = {
+            foot: correction.apply(samples)
+            for foot, correction in corrections.items()
+            if (samples := self.imu(foot)) is not None
+        }
+        return replace(self, **series)  # type: ignore[arg-type]
 
     def truth(self, foot: str) -> PoseSeries | None:
         """Return the true poses of ``foot``, "left" or "right"."""

@@ -1,10 +1,10 @@
-"""What is known of a walk without measuring every moment of it: floor markers, a closed loop.
+"""References of a walk that are not measured at every moment: floor markers, a closed loop.
 
 The file is a small YAML, ``reference.yaml`` inside the folder of the bag::
 
     format: dualfoot_reference
     version: 1
-    source: tape measure, hall 3      # where the knowledge comes from
+    source: tape measure, hall 3      # of the points
     frame: floor                      # level, z up; its origin and heading are free
     unit: m
     closed_loop: true                 # each foot ends where it started
@@ -40,7 +40,7 @@ class Reference:
 
     Attributes
     ----------
-    source : where the knowledge comes from
+    source : of the reference, such as "tape measure, hall 3"
     markers : foot -> (K, 3) m, one point for each stance of that foot, in order; may be empty
     closed_loop : each foot ends where it started
     length_m : the walked way, or None when it is not known
@@ -54,7 +54,7 @@ class Reference:
     frame: str = "floor"
 
     def summary(self) -> str:
-        """Say in one line what is known."""
+        """Return the reference in one line."""
         parts = [
             f"{len(points)} markers of the {foot} foot" for foot, points in self.markers.items()
         ]

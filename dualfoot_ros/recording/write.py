@@ -1,4 +1,4 @@
-"""Write a recording as a rosbag2, whole or not at all."""
+"""Writing of recordings as rosbag2 folders, whole or not at all."""
 
 from __future__ import annotations
 

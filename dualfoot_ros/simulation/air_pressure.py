@@ -1,8 +1,8 @@
 """Barometers on the walk: pressure from the true height, with noise, drift and other weather.
 
 The standard atmosphere at another temperature is stretched by the ratio of the temperatures, so a
-height told by it is wrong by that ratio, as a real one is.  The air that streams past a swinging
-shoe (some 10 Pa) is left out: only standing feet are asked for their height.
+barometric height is wrong by that ratio, as a real one is.  The air that streams past a swinging
+shoe (some 10 Pa) is left out, since heights are measured on standing feet only.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def barometers(
     start_ns: int,
     rngs: tuple[np.random.Generator, np.random.Generator],
 ) -> dict[str, PressureSeries]:
-    """Return what the barometers put out, keys "left" and "right", or "both" on the body.
+    """Return the measured pressure by "left" and "right", or by "both" for one on the body.
 
     On a foot it shares the clock of the inertial sensor; on the body the clock is true.
     """

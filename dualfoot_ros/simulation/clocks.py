@@ -1,4 +1,4 @@
-"""Each device's own clock: when it samples, what it stamps, what is lost, when samples arrive."""
+"""The clock and the link of a device: sampling times, stamps, lost samples, arrival times."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where and when each foot lands: the plan of a walk, one row a landing."""
+"""Places and times of the landings of both feet: the plan of a walk, one row a landing."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ class _Walker:
         self.now = last + self.config.stop_duration
 
     def footprints(self, route: Route) -> Footprints:
-        """Return what was collected, ended by the final standstill."""
+        """Return the collected landings, ended by the final standstill."""
         side, flat, heel_off, progress, lateral, passes, stair = np.array(self.rows).T
         return Footprints(
             side=side,

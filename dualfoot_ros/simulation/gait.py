@@ -108,7 +108,7 @@ def climb(phase: FloatArray, rise: FloatArray) -> FloatArray:
 
 
 def sole_height(pitch: FloatArray) -> FloatArray:
-    """Return how high the ball is, in m, when the heel touches the floor (nose-up pitch).
+    """Return the height of the ball, m, when the heel touches the floor (nose-up pitch).
 
     The sole gives: the ball touches softly while the shoe still has about two degrees to go.
     """
@@ -117,11 +117,11 @@ def sole_height(pitch: FloatArray) -> FloatArray:
 
 
 def give(pitch: FloatArray, slow: FloatArray) -> FloatArray:
-    """Return how far the ball yields, in m down, because the shoe first turns about its middle.
+    """Return by how much the ball yields, m downwards, as the shoe first turns about its middle.
 
     Slow rotation of the stance (``slow``, rad) and the first of the heel's rise (``pitch``, rad)
     turn the shoe about a point behind the sensor, 12 cm behind the ball; only then the ball takes
-    over.  On real walks plain ZUPT climbs by 15-30 mm a stride for that.
+    over.  On real walks plain ZUPT climbs by 15-30 mm a stride because of that.
     """
     first = 0.08 * np.tanh(np.maximum(pitch, 0.0) / 0.08)
     return MIDDLE_M * (first + slow)

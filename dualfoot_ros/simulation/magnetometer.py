@@ -67,7 +67,7 @@ def sense_field(
     truth: PoseSeries,
     rng: np.random.Generator,
 ) -> FloatArray:
-    """Return what a magnetometer with the poses ``truth`` puts out (N, 3), T, sensor axes."""
+    """Return the field (N, 3) T, sensor axes, that a magnetometer measures at poses ``truth``."""
     turned = Rotation.from_quat(truth.quaternion)
     field = turned.apply(surroundings.field(truth.position), inverse=True)
     field += config.hard_iron * rng.standard_normal(3)

@@ -1,7 +1,7 @@
 """The motion of one shoe as a quintic B-spline: exact position, velocity, rotation and rates.
 
 The rough motion (footprints, templates, ringing, wobble) is sampled at the control points of a
-uniform quintic B-spline.  What the spline makes of them *is* the truth: four times continuously
+uniform quintic B-spline.  The spline through them *is* the truth: four times continuously
 differentiable, exactly at rest where the rough motion rests, every derivative a closed form.
 """
 
@@ -25,7 +25,7 @@ MARGIN_S = 0.5
 
 @dataclass(frozen=True)
 class Kinematics:
-    """What a sensor at one place on the shoe goes through; the sensor's frame is the body frame.
+    """The motion of a sensor at one place on the shoe; the sensor's frame is the body frame.
 
     Attributes
     ----------
@@ -122,7 +122,7 @@ class Walker:
         self.bulge = np.zeros(count)
         self.scatter = np.clip(rng.standard_normal((count, 8)), -2.5, 2.5)
         self.knots, self.time_s = _knots(prints.end_s)
-        self._rest = self._restless(rng)
+        self._rest = self._wobble_and_sway(rng)
         self._phase()
 
     def motion(self) -> ShoeMotion:
@@ -145,7 +145,7 @@ class Walker:
         self.scale = self._scale()
 
     def _scale(self) -> FloatArray:
-        """Return (K,) how large each swing is: 1 for a full stride, less on stairs."""
+        """Return the size (K,) of each swing: 1 for a full stride, less on stairs."""
         progress = self.prints.progress[self.rows]
         stride = np.diff(progress, prepend=progress[0]) / (2.0 * self.config.step_length)
         scale = np.clip(stride, 0.3, 1.15)
@@ -205,7 +205,7 @@ class Walker:
         wave = gait.ringing(self.since_strike) * self.config.gait.impact * self.scale[self.now]
         return size * wave[:, None]
 
-    def _restless(self, rng: np.random.Generator) -> FloatArray:
+    def _wobble_and_sway(self, rng: np.random.Generator) -> FloatArray:
         """Return (N, 3) rad: wobble of the walking foot, tremor and sway of the standing one."""
         config, time_s = self.config.gait, self.time_s
         wobble = smooth_rate_noise(time_s, 0.12, rng) * config.wobble

@@ -1,4 +1,4 @@
-"""Smooth random motion: what a walker adds to each step and to a stand."""
+"""Smooth random motion that a walker adds to each step and to a stand."""
 
 from __future__ import annotations
 

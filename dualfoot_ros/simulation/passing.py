@@ -38,11 +38,11 @@ NO_PASSES = Passes(np.empty(0), np.empty(0), np.empty(0), np.empty(0))
 
 @dataclass(frozen=True)
 class PassPlan:
-    """Steps that pass a standing foot, and when and how closely they are wanted to.
+    """Steps that pass a standing foot, and the wanted moment and distance of each pass.
 
     ``row`` (M,) is the landing, ``start`` and ``end`` (M,) s bound the stance of the other foot,
     ``time_s`` (M,) and ``distance`` (M,) m are wanted where ``free`` (M,), which is not on stairs:
-    there the treads say where the feet go.
+    there the treads fix the places of the feet.
     """
 
     row: np.ndarray
@@ -101,7 +101,7 @@ def least(
     end: FloatArray,
     count: int = 49,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return when (M,) s and how closely (M,) m the sensors pass between ``start`` and ``end``.
+    """Return moment (M,) s and distance (M,) m of the passes between ``start`` and ``end``.
 
     The least of ``count`` moments is refined by the parabola through it and its neighbours.
     """

@@ -160,7 +160,7 @@ def _stairs() -> Route:
 
 @dataclass(frozen=True)
 class RouteKind:
-    """A named route: how to build it, and what it is in words."""
+    """A named route: a function that builds it, and its description."""
 
     build: Callable[[], Route]
     description: str

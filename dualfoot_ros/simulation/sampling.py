@@ -1,4 +1,4 @@
-"""What an ideal sensor delivers: the means of specific force and angular rate over each interval.
+"""The output of an ideal sensor: the means of specific force and angular rate over each interval.
 
 Real inertial sensors integrate between two outputs; a sample is stamped at the *end* of its
 interval.  The means are taken by Gauss-Legendre quadrature on the exact motion.

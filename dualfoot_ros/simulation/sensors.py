@@ -1,4 +1,4 @@
-"""The errors of an inertial sensor: what stands between the motion and the numbers.
+"""The errors of an inertial sensor, from the true motion to its output.
 
 In this order: scale and misalignment, g-sensitivity, turn-on bias, warm-up drift, bias instability
 (first-order Gauss-Markov), white noise, saturation, quantisation.
@@ -205,12 +205,12 @@ def measure(
     warm = np.exp(-time_s / config.warm_up_time)[:, None]
     sensed_rate = rate + rate @ errors.rate_matrix.T + force @ errors.g_matrix.T
     sensed_rate += errors.rate_bias + errors.rate_warm_up * warm
-    sensed_rate += _restless(
+    sensed_rate += _noise_and_instability(
         config.gyro_noise, config.gyro_instability, config, interval, len(rate), rng
     )
     sensed_force = force + force @ errors.force_matrix.T
     sensed_force += errors.force_bias + errors.force_warm_up * warm
-    sensed_force += _restless(
+    sensed_force += _noise_and_instability(
         config.accelerometer_noise,
         config.accelerometer_instability,
         config,
@@ -219,8 +219,10 @@ def measure(
         rng,
     )
     return (
-        _digital(sensed_force, config.accelerometer_range, config.accelerometer_resolution),
-        _digital(sensed_rate, config.gyro_range, config.gyro_resolution),
+        _saturate_and_quantise(
+            sensed_force, config.accelerometer_range, config.accelerometer_resolution
+        ),
+        _saturate_and_quantise(sensed_rate, config.gyro_range, config.gyro_resolution),
     )
 
 
@@ -230,7 +232,7 @@ def _matrix(scale: float, misalignment: float, rng: np.random.Generator) -> Floa
     return matrix
 
 
-def _restless(
+def _noise_and_instability(
     noise: float,
     instability: float,
     config: SensorConfig,
@@ -246,7 +248,7 @@ def _restless(
     return white + instability * lfilter([1.0], [1.0, -keep], drive, axis=0)
 
 
-def _digital(value: FloatArray, full_scale: float, resolution: float) -> FloatArray:
+def _saturate_and_quantise(value: FloatArray, full_scale: float, resolution: float) -> FloatArray:
     if full_scale > 0.0:
         value = np.clip(value, -full_scale, full_scale)
     if resolution > 0.0:

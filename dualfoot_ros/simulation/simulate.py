@@ -1,4 +1,4 @@
-"""What two sensors record of a walk, and the exact truth beside it."""
+"""Simulation of two sensors on a walk, with the exact truth."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ from .walk_config import WalkConfig
 
 @dataclass(frozen=True)
 class Simulation:
-    """Two recordings and all that is known about them.
+    """The recordings of both sensors, with the exact truth and the drawn errors.
 
     Attributes
     ----------
-    left, right : what the sensors put out, stamped by their own clocks, lost samples missing
+    left, right : samples of the sensors, stamped by their own clocks, lost samples missing
     left_truth, right_truth : exact poses of the sensors' body frames (as published: the sensor's
         own axes, mounting rotation not undone) at every sampling instant, in true time
     left_arrival_ns, right_arrival_ns : (N,) true time at which each sample reached the host
     left_stances, right_stances : (M, 2) ns of true time, flat foot to heel-off
     moment_ns : (M,) true times of least distance, of the passes in ``walk.passes``
-    left_errors, right_errors : what was drawn for the sensors
-    pressure : what barometers put out, where there are any, by where they are worn
+    left_errors, right_errors : errors drawn for the sensors
+    pressure : air pressure by where the barometer is worn; empty without barometers
     """
 
     left: ImuSeries
@@ -79,7 +79,8 @@ def simulate(
     if magnetometer is not None:
         recorded = _with_fields(recorded, magnetometer, rngs)
     (left, left_truth, left_arrival), (right, right_truth, right_arrival) = (
-        (each.series[each.kept], each.truth, each.arrival_ns[each.kept]) for each in recorded
+        (device.series[device.kept], device.truth, device.arrival_ns[device.kept])
+        for device in recorded
     )
     pressure: dict[str, PressureSeries] = {}
     if barometer is not None:
@@ -103,7 +104,7 @@ def simulate(
 
 
 class _Recorded(NamedTuple):
-    """What one device measured; ``kept`` (N,) of it was not lost."""
+    """The samples of one device; ``kept`` (N,) is False where one was lost."""
 
     series: ImuSeries
     truth: PoseSeries
@@ -119,7 +120,7 @@ def _record(
     clock: ClockConfig,
     rngs: dict[str, np.random.Generator],
 ) -> _Recorded:
-    """Return what one device measured, the truth, and when its samples arrived."""
+    """Return samples, truth and arrival times of one device."""
     foot = ("left", "right")[index]
     rate = walked.config.rate
     times: Sampling = sample_times(clock, rate, walked.duration_s, START_NS, rngs[f"{foot} clock"])
@@ -138,8 +139,8 @@ def _with_fields(
 ) -> list[_Recorded]:
     """Return the recordings of both feet with the magnetic field."""
     surroundings = Surroundings(config, rngs["surroundings"])
-    found = []
-    for foot, each in zip(FEET, recorded, strict=True):
-        field = sense_field(config, surroundings, each.truth, rngs[f"{foot} magnetometer"])
-        found.append(each._replace(series=replace(each.series, magnetic_field=field)))
-    return found
+    sensed = []
+    for foot, device in zip(FEET, recorded, strict=True):
+        field = sense_field(config, surroundings, device.truth, rngs[f"{foot} magnetometer"])
+        sensed.append(device._replace(series=replace(device.series, magnetic_field=field)))
+    return sensed

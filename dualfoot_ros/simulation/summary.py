@@ -22,7 +22,7 @@ def summary(simulation: Simulation) -> dict[str, Any]:
         "passes": len(passes.distance),
     }
     if simulation.pressure:
-        facts["pressure_samples"] = {w: len(each) for w, each in simulation.pressure.items()}
+        facts["pressure_samples"] = {w: len(series) for w, series in simulation.pressure.items()}
     if simulation.left.magnetic_field is not None:
         facts["magnetic_field"] = True
     if facts["passes"]:

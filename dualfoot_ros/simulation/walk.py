@@ -1,4 +1,4 @@
-"""Simulate a walk with a sensor on each foot, and keep the exact truth beside it."""
+"""The motion of both shoes on a walk, from which sensors and truth are simulated."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ SIDES = (1, -1)
 
 @dataclass(frozen=True)
 class Walk:
-    """The motion of both shoes, before any sensor looks at it.
+    """The motion of both shoes and the mountings of the sensors on them.
 
-    ``levers`` (two of (3,) m) and ``mountings`` (two of (3, 3), sensor to shoe) say where the left
-    and the right sensor sit, on ``shoes``, the feet ``sides`` (+1 left, -1 right).
+    ``levers`` (two of (3,) m) and ``mountings`` (two of (3, 3), sensor to shoe) are the places of
+    the left and the right sensor, on ``shoes``, the feet ``sides`` (+1 left, -1 right).
     """
 
     config: WalkConfig
@@ -73,11 +73,11 @@ def walk(config: WalkConfig | None = None, seed: int = 0) -> Walk:
     )
     tune(walkers, prints, wanted)
     shoes = (walkers[0].motion(), walkers[1].motion())
-    found = passes(shoes, config, prints, wanted)
+    true_passes = passes(shoes, config, prints, wanted)
     mount = config.mount
     levers = (mount.lever_of(1), mount.lever_of(-1))
     mountings = (mount.rotation_of(1), mount.rotation_of(-1))
-    return Walk(config, line, prints, shoes, levers, mountings, found)
+    return Walk(config, line, prints, shoes, levers, mountings, true_passes)
 
 
 def rigid_pair(walked: Walk, separation: float = 0.014) -> Walk:

@@ -1,4 +1,4 @@
-"""What can be chosen about a simulated walk: the way, the walker, and where the sensor sits."""
+"""Parameters of a simulated walk: the route, the walker, and the mounting of the sensors."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from ..core import FloatArray, Parameters, parameter
+from ..core import STANDARD_GRAVITY, FloatArray, Parameters, parameter
 from .routes import ROUTES
 
 
@@ -66,7 +66,7 @@ def rotation_zyx(yaw: FloatArray, pitch: FloatArray, roll: FloatArray) -> FloatA
 
 @dataclass(frozen=True)
 class Gait(Parameters):
-    """How the walker walks, and how much one step differs from the next."""
+    """Parameters of the gait, and their variation from step to step."""
 
     walk_ratio: float = parameter(
         0.0065, "step length over cadence", unit="m min", minimum=0.002, maximum=0.02
@@ -161,7 +161,9 @@ class WalkConfig(Parameters):
     )
     stops: int = parameter(0, "stops on the way, evenly spaced", minimum=0, maximum=1000)
     stop_duration: float = parameter(4.0, "length of a stop", unit="s", minimum=0.5, maximum=600.0)
-    gravity: float = parameter(9.80665, "local gravity", unit="m/s^2", minimum=9.7, maximum=9.9)
+    gravity: float = parameter(
+        STANDARD_GRAVITY, "local gravity", unit="m/s^2", minimum=9.7, maximum=9.9
+    )
     gait: Gait = field(default_factory=Gait)
 
     @classmethod

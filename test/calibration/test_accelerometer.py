@@ -59,7 +59,7 @@ def test_six_positions_do_not_tell_the_misalignment():
 def test_attitudes_in_one_plane_are_refused_however_many_they_are():
     angles = np.radians(np.arange(0, 360, 30))
     ups = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(12)])
-    with pytest.raises(CalibrationError, match=r"do not tell the (bias|scale) of"):
+    with pytest.raises(CalibrationError, match=r"do not determine the (bias|scale) of"):
         fit_accelerometer(segments(ups))
 
 

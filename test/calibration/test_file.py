@@ -153,5 +153,5 @@ def test_a_file_without_a_foot_a_foot_twice_and_a_foot_that_is_not_there_are_ref
         for_feet([files["any"]])
     with pytest.raises(CalibrationError, match="two calibrations are given for the left foot"):
         for_feet([files["both"], files["left"]])
-    with pytest.raises(CalibrationError, match="is for left; there is none for right"):
+    with pytest.raises(CalibrationError, match="is for left; it has none for right"):
         sensor_calibration(files["left"], "right")

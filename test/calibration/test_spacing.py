@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from inspection.tracks import track_feet
 
 from dualfoot_ros.calibration import CalibrationError
 from dualfoot_ros.calibration.parameter_text import parameter_text
 from dualfoot_ros.calibration.spacing import fit_spacing
 from dualfoot_ros.core import DualFootTracker, TrackerConfig
 from dualfoot_ros.core.results.events import EventKind
-from dualfoot_ros.inspection.stance_statistics import free_tracks
 from dualfoot_ros.settings.presets import load_config
 from dualfoot_ros.simulation import WalkConfig, simulate
 from dualfoot_ros.timing import align
@@ -20,7 +20,7 @@ def fitted(seed=1, exchanged=False, **route):
     """Return the walk that was simulated, its tracks, and what they tell."""
     made = simulate(WalkConfig(**route), seed=seed)
     feet = (made.right, made.left) if exchanged else (made.left, made.right)
-    tracks = free_tracks(*feet)
+    tracks = track_feet(*feet)
     return made, tracks, fit_spacing(tracks)
 
 
@@ -122,7 +122,7 @@ def test_at_the_told_kappa_the_constraint_comes_when_the_feet_are_closest(eight)
 def test_too_few_steps_are_refused():
     made = simulate(WalkConfig(route="standing"), seed=1)
     with pytest.raises(CalibrationError, match="0 steps were found"):
-        fit_spacing(free_tracks(made.left, made.right))
+        fit_spacing(track_feet(made.left, made.right))
 
 
 def test_turning_round_is_what_the_uncertainty_waits_for():

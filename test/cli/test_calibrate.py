@@ -132,7 +132,7 @@ def test_a_straight_walk_says_that_it_cannot_tell_the_distance(bags, capsys):
     facts = json.loads(captured.out)
     assert (facts["seen"], facts["c0_m"], facts["step_width_m"]) == (False, None, None)
     assert facts["kappa"] == pytest.approx(0.5, abs=0.05)
-    assert "cannot be told" in captured.err
+    assert "is unobservable" in captured.err
 
 
 def test_exchanged_feet_are_said_by_calibrate_info_and_evaluate(bags, capsys):

@@ -9,8 +9,9 @@ from recording.samples import moving
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from dualfoot_ros.inspection.field_facts import facts_of
-from dualfoot_ros.inspection.findings import fields_of, findings_of
+from dualfoot_ros.inspection.field_facts import field_facts
+from dualfoot_ros.inspection.finding import Severity
+from dualfoot_ros.inspection.findings import findings_of, recorded_fields
 from dualfoot_ros.recording import Recording, read_bag, write_bag
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
@@ -25,22 +26,22 @@ def felt(field, seed=1):
 
 
 def named(left):
-    return {finding.name: finding for finding in findings_of(Recording(left, moving(2)))}
+    return {finding.kind: finding for finding in findings_of(Recording(left, moving(2)))}
 
 
 def test_the_facts_count_what_was_measured_and_tell_its_size():
     field = np.tile(EARTH, (len(moving(1)), 1))
     field[::2] = np.nan
     field[1] *= 2.0
-    facts = facts_of(felt(field))
+    facts = field_facts(felt(field))
     assert (facts.samples, facts.all_samples) == (len(field) // 2, len(field))
     assert facts.out_of_range == 0
     assert facts.low_t == facts.median_t == facts.high_t == pytest.approx(SIZE)
 
 
 def test_a_foot_without_a_field_has_no_facts_and_no_objection():
-    assert facts_of(moving(1)) is None
-    assert list(fields_of(Recording(felt(EARTH), moving(2)))) == ["left"]
+    assert field_facts(moving(1)) is None
+    assert list(recorded_fields(Recording(felt(EARTH), moving(2)))) == ["left"]
     assert not {"field_range", "field_stamps"} & set(named(felt(EARTH)))
 
 
@@ -49,7 +50,7 @@ def test_a_foot_without_a_field_has_no_facts_and_no_objection():
 )
 def test_a_field_in_another_unit_is_said_to_be(unit, size_t):
     finding = named(felt(EARTH / size_t))["field_range"]
-    assert finding.severity == "warning"
+    assert finding.severity is Severity.WARNING
     assert f"so they are in {unit}; publish T" in finding.sentence
 
 
@@ -58,13 +59,13 @@ def test_a_few_fields_that_cannot_be_are_counted_and_left_out():
     field[3] = [np.inf, 0.0, 0.0]
     field[7] = 0.0
     sentence = named(felt(field))["field_range"].sentence
-    assert f"left foot: 2 of {len(field)} are none of the earth in T" in sentence
+    assert f"left foot: 2 of {len(field)} samples are no field of the earth in T" in sentence
     assert sentence.endswith("; they are left out")
 
 
 def test_fields_with_stamps_of_their_own_are_not_lost_in_silence():
     finding = named(felt(np.full(3, np.nan)))["field_stamps"]
-    assert finding.severity == "warning"
+    assert finding.severity is Severity.WARNING
     assert "none has the stamp of a sample" in finding.sentence
 
 

@@ -1,4 +1,4 @@
-"""Objections to a recording: each kind of bad input has its sentence, good input has none."""
+"""Findings on a recording: each kind of bad input has its own, good input has none."""
 
 from dataclasses import replace
 
@@ -21,10 +21,10 @@ def of(left=None, right=None):
 
 
 def named(recording):
-    return {finding.name for finding in findings_of(recording)}
+    return {finding.kind for finding in findings_of(recording)}
 
 
-def test_a_good_recording_has_no_objection():
+def test_a_good_recording_has_no_finding():
     assert named(of()) == set()
     left, right = require_usable(of())
     assert len(left) == len(right) == 1200

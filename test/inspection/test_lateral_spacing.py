@@ -1,4 +1,4 @@
-"""Which foot is on the left, and how far: from free tracks, and never a false alarm."""
+"""Which foot is on the left, and how far: from unconstrained tracks, and never a false alarm."""
 
 import math
 from dataclasses import replace
@@ -8,12 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from dualfoot_ros.core import StanceEpochs, StancePassing, stance_passings
 from dualfoot_ros.inspection.exchanged_feet import walk_findings
 from dualfoot_ros.inspection.lateral_spacing import side_by_side
-from dualfoot_ros.inspection.passings import Passing, Stance
-from dualfoot_ros.inspection.stance_statistics import free_tracks
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 from dualfoot_ros.simulation import SensorConfig, WalkConfig, simulate
+
+from .tracks import track_feet
 
 
 def passings(headings, spacing, *, drift=0.0, scale=0.0, offset=(0.0, 0.0), noise=0.0, seed=0):
@@ -30,8 +31,8 @@ def passings(headings, spacing, *, drift=0.0, scale=0.0, offset=(0.0, 0.0), nois
         place = place + way
         apart = apart + drift * np.array([-way[1], way[0]]) + scale * way
         separation = apart + spacing * left + noise * rng.standard_normal(2)
-        stance = Stance(60 * k, 60 * k + 30)
-        made.append(Passing(60 * k + 15, k % 2, stance, (0, 0), separation, forward, place))
+        stance = StanceEpochs(60 * k, 60 * k + 30)
+        made.append(StancePassing(60 * k + 15, k % 2, stance, (0, 0), separation, forward, place))
     return made
 
 
@@ -119,9 +120,7 @@ def test_the_uncertainty_is_honest_on_simulated_walks(route, errors):
 
 
 def spacing_of(left, right):
-    from dualfoot_ros.inspection.passings import passings_of
-
-    return side_by_side(passings_of(free_tracks(left, right)))
+    return side_by_side(stance_passings(track_feet(left, right)))
 
 
 def walks(dual_feet):
@@ -136,9 +135,9 @@ def test_of_the_real_walks_all_but_the_laps_show_exchanged_feet_and_none_a_false
     assert len(recordings) == 27
     alarms, recognised = 0, 0
     for recording in recordings:
-        alarms += len(list(walk_findings(free_tracks(recording.left, recording.right))))
-        found = list(walk_findings(free_tracks(recording.right, recording.left)))
-        recognised += [f.name for f in found] == ["swapped"]
+        alarms += len(list(walk_findings(track_feet(recording.left, recording.right))))
+        found = list(walk_findings(track_feet(recording.right, recording.left)))
+        recognised += [finding.kind for finding in found] == ["swapped"]
     assert (recognised, alarms) == (25, 0)
 
 
@@ -146,4 +145,4 @@ def test_two_sensors_on_one_shoe_are_no_exchanged_feet():
     from dualfoot_ros.simulation import rigid_pair, walk
 
     made = simulate(rigid_pair(walk(WalkConfig(route="L"), 1), 0.014), seed=1)
-    assert list(walk_findings(free_tracks(made.left, made.right))) == []
+    assert list(walk_findings(track_feet(made.left, made.right))) == []

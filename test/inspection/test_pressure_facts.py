@@ -13,8 +13,9 @@ from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 from dualfoot_ros.core import PressureSeries
+from dualfoot_ros.inspection.finding import Severity
 from dualfoot_ros.inspection.findings import findings_of
-from dualfoot_ros.inspection.pressure_facts import facts_of
+from dualfoot_ros.inspection.pressure_facts import pressure_facts
 from dualfoot_ros.recording import Recording, list_topics, read_bag, write_bag
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 
@@ -28,7 +29,7 @@ def same(a, b):
 
 
 def named(made):
-    return {finding.name: finding for finding in findings_of(made)}
+    return {finding.kind: finding for finding in findings_of(made)}
 
 
 def worn(series, where="left"):
@@ -95,7 +96,7 @@ def test_facts_are_those_of_a_climb():
     stamps = START + np.arange(500) * 40_000_000
     climb = 101325.0 - 12.0 * np.linspace(0.0, 10.0, 500)  # 12 Pa a metre at sea level
     noise = np.random.default_rng(0).normal(0.0, 2.4, 500)
-    facts = facts_of(PressureSeries(stamps, climb + noise))
+    facts = pressure_facts(PressureSeries(stamps, climb + noise))
     assert facts.rate_hz == pytest.approx(25.0)
     assert facts.highest_m == pytest.approx(
         9.5, abs=0.3
@@ -105,7 +106,7 @@ def test_facts_are_those_of_a_climb():
     assert (facts.out_of_range, facts.out_of_order) == (0, 0)
 
 
-def test_good_pressure_has_no_objection_and_each_fault_its_sentence():
+def test_good_pressure_has_no_finding_and_each_fault_its_own():
     stamps = START + np.arange(300) * 40_000_000
     good = pressure(stamps)
     assert named(worn(good)) == {}
@@ -122,13 +123,13 @@ def test_good_pressure_has_no_objection_and_each_fault_its_sentence():
     assert "2 duplicate or out-of-order stamps" in stamped.sentence
     other = named(worn(replace(good, stamp_ns=stamps - 10**15), "right"))["pressure_clock"]
     assert "shares no time with the left and the right foot" in other.sentence
-    assert all(f.severity == "warning" for f in (hecto, broken, other))
+    assert all(f.severity is Severity.WARNING for f in (hecto, broken, other))
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])
 @pytest.mark.parametrize("value", [101325.0, np.nan, 0.0])
 def test_a_few_samples_of_anything_have_facts(count, value):
-    facts = facts_of(PressureSeries(START + np.arange(count), np.full(count, value)))
+    facts = pressure_facts(PressureSeries(START + np.arange(count), np.full(count, value)))
     assert facts.samples == count
 
 

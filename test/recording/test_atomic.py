@@ -6,7 +6,7 @@ import re
 import pytest
 
 from dualfoot_ros.recording import RecordingError
-from dualfoot_ros.recording.atomic import new_directory, write_text
+from dualfoot_ros.recording.atomic import new_directory, new_files, write_text
 
 
 def made(path):
@@ -49,3 +49,29 @@ def test_only_a_file_is_replaced(tmp_path):
             text(other)
     assert pipe.is_fifo()
     assert loose.is_symlink()
+
+
+def test_new_files_go_into_a_folder_that_keeps_what_is_not_theirs(tmp_path):
+    target = tmp_path / "report"
+    target.mkdir()
+    for name in ("old.tum", "mine.txt", "same.json"):
+        (target / name).write_text("old")
+    with new_files(target, replacing=("*.tum",)) as folder:
+        (folder / "same.json").write_text("new")
+        assert (target / "old.tum").exists()
+    assert {p.name: p.read_text() for p in target.iterdir()} == {
+        "mine.txt": "old",
+        "same.json": "new",
+    }
+
+
+@pytest.mark.parametrize("there", [True, False])
+def test_files_of_a_block_that_fails_leave_the_folder_as_it_was(tmp_path, there):
+    target = tmp_path / "report"
+    if there:
+        target.mkdir()
+        (target / "old.tum").write_text("old")
+    with pytest.raises(ZeroDivisionError), new_files(target, replacing=("*.tum",)) as folder:
+        (folder / "new.tum").write_text("new")
+        raise ZeroDivisionError
+    assert [p.name for p in tmp_path.rglob("*")] == (["report", "old.tum"] if there else [])

@@ -8,7 +8,7 @@ from . import accelerometer as calibrate_accelerometer
 from . import gyro as calibrate_gyro
 from . import spacing as calibrate_spacing
 
-HELP = "measure what the filter should know: accelerometer, gyro and its noise, feet in passing"
+HELP = "calibrate accelerometer, gyro and noise, and the distance of the feet in passing"
 WHAT = {
     "accelerometer": calibrate_accelerometer,
     "gyro": calibrate_gyro,
@@ -18,7 +18,7 @@ EXAMPLES = "examples:\n" + "".join(module.FIRST for module in WHAT.values())
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what can be calibrated, each with its own arguments."""
+    """Declare the kinds of calibration, each with its own arguments."""
     parsers = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
     for name, module in WHAT.items():
         part = parsers.add_parser(

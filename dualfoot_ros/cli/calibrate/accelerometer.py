@@ -7,12 +7,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ...core import STANDARD_GRAVITY
 from . import common as common
 
 if TYPE_CHECKING:
     from ...calibration import AccelerometerFit, CrossValidation, Segment
 
-    Found = tuple[AccelerometerFit, list[Segment], CrossValidation]
+    Result = tuple[AccelerometerFit, list[Segment], CrossValidation]
 
 HELP = "bias, scale and misalignment of accelerometers held still in six or more attitudes"
 FIRST = "  dualfoot calibrate accelerometer A*.csv -o right.yaml\n"
@@ -37,15 +38,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--model",
         choices=("auto", "full", "scale", "bias"),
         default="auto",
-        help="what is sought: bias; bias and scale; these and misalignment; auto takes the larger "
-        "of the last two that the attitudes tell (default: %(default)s)",
+        help="parameters to estimate: bias; bias and scale; or also misalignment (full); auto "
+        "takes the larger of the last two that the attitudes determine (default: %(default)s)",
     )
     parser.add_argument(
         "--gravity",
         type=float,
-        default=9.80665,
+        default=STANDARD_GRAVITY,
         metavar="M/S^2",
-        help="local gravity; take that of the filter's configuration (default: %(default)s)",
+        help="local gravity, the same as in the filter's configuration (default: %(default)s)",
     )
 
 
@@ -57,20 +58,20 @@ def run(args: argparse.Namespace) -> int:
         raise CalibrationError(f"--gravity is {args.gravity:g}; allowed is 9.7 to 9.9 m/s^2")
     calibration = common.existing(args.output)
     loaded = common.load(args)
-    found = {name: _fit(name, sources, args) for name, sources in loaded.items()}
+    results = {name: _fit(name, sources, args) for name, sources in loaded.items()}
     files = []
     if args.output is not None:
-        for name, (fit, _, _) in found.items():
+        for name, (fit, _, _) in results.items():
             calibration = calibration.with_triad(name, "accelerometer", fit.triad())
         calibration.save(args.output)
         files.append(args.output)
         if not args.no_plots:
-            files.append(_draw(found, args.output))
-    lines = [line for name, parts in found.items() for line in _words(name, *parts)]
-    facts = {name: _facts(*parts) for name, parts in found.items()}
+            files.append(_draw(results, args.output))
+    lines = [line for name, result in results.items() for line in _lines(name, *result)]
+    facts = {name: _facts(*result) for name, result in results.items()}
     common.show(args, {**facts, "files": [str(f) for f in files]}, [*lines, *map(str, files)])
-    common.warn_of(loaded, "accelerometer")
-    for name, (fit, _, _) in found.items():
+    common.warn_of_doubts(loaded, "accelerometer")
+    for name, (fit, _, _) in results.items():
         if fit.doubtful:
             common.warn(
                 f"{name}: the residuals are large; were all recordings of the same sensor, was it "
@@ -79,7 +80,7 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _fit(name: str, sources: list[tuple[str, Any]], args: argparse.Namespace) -> Found:
+def _fit(name: str, sources: list[tuple[str, Any]], args: argparse.Namespace) -> Result:
     from ...calibration import CalibrationError, cross_validate, fit_accelerometer, segments_of
 
     segments = [s for label, series in sources for s in segments_of(series, label)]
@@ -90,14 +91,14 @@ def _fit(name: str, sources: list[tuple[str, Any]], args: argparse.Namespace) ->
     return fit, segments, cross_validate(segments, fit)
 
 
-def _draw(found: dict[str, Found], output: Path) -> Path:
+def _draw(results: dict[str, Result], output: Path) -> Path:
     from ...calibration.plots import draw_residuals
 
-    fits = {name: (fit, segments) for name, (fit, segments, _) in found.items()}
-    return draw_residuals(fits, common.figure_path(output, "accelerometer", list(found)))
+    fits = {name: (fit, segments) for name, (fit, segments, _) in results.items()}
+    return draw_residuals(fits, common.figure_path(output, "accelerometer", list(results)))
 
 
-def _words(
+def _lines(
     name: str, fit: AccelerometerFit, segments: list[Segment], check: CrossValidation
 ) -> Iterator[str]:
     from ...calibration import MODELS, rms, why_not

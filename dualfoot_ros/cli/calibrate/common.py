@@ -1,17 +1,20 @@
-"""What the kinds of ``dualfoot calibrate`` have in common: sources, output, sentences."""
+"""Arguments, sources and output that the kinds of ``dualfoot calibrate`` share."""
 
 from __future__ import annotations
 
 import argparse
-import json
-import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...core import FEET
-from ..arguments import add_topic_arguments
+from ...core import FEET, FORWARD_LEFT_UP
+from ..arguments import (
+    add_json_argument,
+    add_no_plots_argument,
+    add_topic_arguments,
+    read_topics,
+)
+from ..printing import print_json, print_warning
 from ..progress import progress
 
 if TYPE_CHECKING:
@@ -41,7 +44,7 @@ def add_sensor_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--axes",
-        default="+x+y+z",
+        default=FORWARD_LEFT_UP,
         metavar="AXES",
         help="device axes that point forward, left and up, as in 'dualfoot import' "
         "(exports only; default: %(default)s)",
@@ -51,27 +54,21 @@ def add_sensor_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_output_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add how results are shown."""
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else")
-    parser.add_argument("--no-plots", action="store_true", help="draw no figure")
+    """Add ``--json`` and ``--no-plots``."""
+    add_json_argument(parser)
+    add_no_plots_argument(parser, "draw no figure")
 
 
 def load(args: argparse.Namespace) -> dict[str, list[tuple[str, ImuSeries]]]:
     """Read the sources by sensor."""
     from ...calibration import load_sources
-    from ...recording import Topics
 
-    default = Topics()
-    topics = Topics(
-        left=replace(default.left, imu=args.left_topic),
-        right=replace(default.right, imu=args.right_topic),
-    )
     with progress("reading"):
-        return load_sources(args.source, args.foot, axes=args.axes, topics=topics)
+        return load_sources(args.source, args.foot, axes=args.axes, topics=read_topics(args))
 
 
 def existing(path: Path | None) -> Calibration:
-    """Return what a calibration file to be written holds already; refuse any other file."""
+    """Return the calibration that ``path`` holds already; refuse any other file."""
     from ...calibration import Calibration
     from ...recording import check_file
 
@@ -81,31 +78,32 @@ def existing(path: Path | None) -> Calibration:
     return Calibration.load(path)
 
 
-def figure_path(output: Path, what: str, sensors: Sequence[str] = ()) -> Path:
+def figure_path(output: Path, subject: str, sensors: Sequence[str] = ()) -> Path:
     """Return where the figure beside ``output`` goes; one foot alone has its name in it."""
     one = len(sensors) == 1 and sensors[0] in FEET and sensors[0] not in output.stem
     foot = f"{sensors[0]}_" if one else ""
-    return output.with_name(f"{output.stem}_{foot}{what}.png")
+    return output.with_name(f"{output.stem}_{foot}{subject}.png")
 
 
 def show(args: argparse.Namespace, facts: Mapping[str, Any], lines: list[str]) -> None:
     """Print ``facts`` as JSON or ``lines`` for people."""
-    from ...evaluation import plain
-
-    print(json.dumps(plain(facts), allow_nan=False) if args.json else "\n".join(lines))
+    if args.json:
+        print_json(facts)
+    else:
+        print("\n".join(lines))
 
 
 def warn(sentence: str) -> None:
-    """Say on standard error what could not be told."""
-    print(f"dualfoot calibrate: warning: {sentence}", file=sys.stderr)
+    """Print a warning on standard error."""
+    print_warning("calibrate", sentence)
 
 
-def warn_of(found: Mapping[str, Sequence[tuple[str, ImuSeries]]], triad: str) -> None:
-    """Say what is wrong with recordings that tell of ``triad`` all the same."""
+def warn_of_doubts(loaded: Mapping[str, Sequence[tuple[str, ImuSeries]]], triad: str) -> None:
+    """Print what is wrong with recordings from which ``triad`` was calibrated all the same."""
     from ...calibration import doubts, still_spans
     from ...timing import clean
 
-    for name, series in (named for sources in found.values() for named in sources):
+    for name, series in (named for sources in loaded.values() for named in sources):
         good = clean(series).series
         for sentence in doubts(series, name, triad, [good[s] for s in still_spans(good)]):
             warn(sentence)

@@ -22,9 +22,9 @@ examples:
   dualfoot calibrate gyro desk --parameters noise.yaml              noise.* for --config
   dualfoot calibrate gyro desk --json
 
-A few seconds give the bias, minutes the white noise, hours the bias instability and what drives
-the bias. What a sensor at rest shows is the least the filter has to reckon with: scale factors and
-the shock of the steps come on top, so noise.yaml is a lower bound, not a recommendation.
+A few seconds give the bias, minutes the white noise, hours the bias instability and the driving
+noise of the bias. Walking adds scale factor errors and the shocks of the steps, so noise.yaml is a
+lower bound, not a recommendation.
 """
 DEG = 180.0 / math.pi
 
@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--parameters",
         type=Path,
         metavar="FILE.yaml",
-        help="write the noise parameters of the filter that the standstill tells",
+        help="write the noise parameters of the filter, as far as the standstill shows them",
     )
     parser.add_argument(
         "--overwrite", action="store_true", help="replace an existing file of --parameters"
@@ -50,23 +50,23 @@ def run(args: argparse.Namespace) -> int:
     _check_outputs(args)
     calibration = common.existing(args.output)
     loaded = common.load(args)
-    found = {name: fit_gyro(sources) for name, sources in loaded.items()}
-    noise = _noise(found)
-    files = [] if args.parameters is None else [_write_parameters(args.parameters, found, noise)]
+    fits = {name: fit_gyro(sources) for name, sources in loaded.items()}
+    noise = _noise(fits)
+    files = [] if args.parameters is None else [_write_parameters(args.parameters, fits, noise)]
     if args.output is not None:
-        for name, fit in found.items():
+        for name, fit in fits.items():
             calibration = calibration.with_triad(name, "gyro", fit.triad())
         calibration.save(args.output)
         files.append(args.output)
         if not args.no_plots:
-            files.append(_draw(found, args.output))
-    lines = [line for name, fit in found.items() for line in _words(name, fit)]
+            files.append(_draw(fits, args.output))
+    lines = [line for name, fit in fits.items() for line in _lines(name, fit)]
     lines += [f"{name}: {value:.3g}" for name, value in noise.items()]
-    facts = {name: _facts(fit) for name, fit in found.items()}
+    facts = {name: _facts(fit) for name, fit in fits.items()}
     shown = {**facts, "parameters": noise, "files": [str(f) for f in files]}
     common.show(args, shown, [*lines, *map(str, files)])
-    common.warn_of(loaded, "gyro")
-    for name, fit in found.items():
+    common.warn_of_doubts(loaded, "gyro")
+    for name, fit in fits.items():
         for sentence in fit.unseen():
             common.warn(f"{name}: {sentence}")
     return 0
@@ -87,23 +87,23 @@ def _check_outputs(args: argparse.Namespace) -> None:
     check_file(args.parameters, overwrite=args.overwrite)
 
 
-def _noise(found: dict[str, GyroFit]) -> dict[str, float]:
-    """Return the parameters that every sensor tells, those of the worst one."""
+def _noise(fits: dict[str, GyroFit]) -> dict[str, float]:
+    """Return the parameters that every sensor shows, those of the worst one."""
     from ...core import NoiseConfig
 
-    told = [fit.noise(NoiseConfig().bias_time) for fit in found.values()]
-    common_names = [name for name in told[0] if all(name in other for other in told)]
-    return {name: max(other[name] for other in told) for name in common_names}
+    parameters = [fit.noise(NoiseConfig().bias_time) for fit in fits.values()]
+    shared = [name for name in parameters[0] if all(name in other for other in parameters)]
+    return {name: max(other[name] for other in parameters) for name in shared}
 
 
-def _write_parameters(path: Path, found: dict[str, GyroFit], noise: dict[str, float]) -> Path:
+def _write_parameters(path: Path, fits: dict[str, GyroFit], noise: dict[str, float]) -> Path:
     from ...calibration import CalibrationError, parameter_text
     from ...recording import write_text
 
-    seconds = min(fit.standstill.duration_s for fit in found.values())
+    seconds = min(fit.standstill.duration_s for fit in fits.values())
     if not noise:
         raise CalibrationError(
-            f"{seconds:.1f} s of standstill tell no noise parameter, so '{path}' is not written; "
+            f"{seconds:.1f} s of standstill show no noise parameter, so '{path}' is not written; "
             "record some minutes for the white noise, some hours for the rest"
         )
     remarks = [
@@ -115,13 +115,13 @@ def _write_parameters(path: Path, found: dict[str, GyroFit], noise: dict[str, fl
     return path
 
 
-def _draw(found: dict[str, GyroFit], output: Path) -> Path:
+def _draw(fits: dict[str, GyroFit], output: Path) -> Path:
     from ...calibration.plots import draw_allan
 
-    return draw_allan(found, common.figure_path(output, "allan", list(found)))
+    return draw_allan(fits, common.figure_path(output, "allan", list(fits)))
 
 
-def _words(name: str, fit: GyroFit) -> Iterator[str]:
+def _lines(name: str, fit: GyroFit) -> Iterator[str]:
     still = fit.standstill
     yield f"{name}: standstill of {still.duration_s:.1f} s, {still.rate_hz:.1f} Hz"
     yield (
@@ -138,9 +138,9 @@ def _words(name: str, fit: GyroFit) -> Iterator[str]:
             ("bias instability B", "", [s.floor for s in axes]),
             ("random walk K", "1/sqrt(s)", [s.walk for s in axes]),
         ):
-            told = ", ".join("-" if v is None else f"{v:.3g}" for v in values)
+            figures = ", ".join("-" if v is None else f"{v:.3g}" for v in values)
             base = "rad/s" if triad == "gyro" else "m/s^2"
-            yield f"  {triad:<13} {label:<19} x, y, z: {told} {base} {unit}".rstrip()
+            yield f"  {triad:<13} {label:<19} x, y, z: {figures} {base} {unit}".rstrip()
 
 
 def _facts(fit: GyroFit) -> dict[str, Any]:

@@ -8,13 +8,22 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..arguments import add_usable_arguments, load_usable, setting
+from ..arguments import (
+    BAG,
+    add_bag_argument,
+    add_config_arguments,
+    add_usable_arguments,
+    load_usable,
+    tracker_config,
+)
 from . import common as common
 
 if TYPE_CHECKING:
     from ...calibration import SpacingFit
 
-HELP = "distance of the feet in passing (c0), when they pass (kappa), and step width, from a walk"
+HELP = (
+    "distance of the feet in passing (c0), moment of passing (kappa) and step width, from a walk"
+)
 FIRST = "  dualfoot calibrate spacing walk -o gait.yaml\n"
 EXAMPLES = f"""\
 examples:
@@ -23,13 +32,13 @@ examples:
   dualfoot calibrate spacing walk --json
 
 Walk round something, at best some turns to either side: on a straight line the distance of the
-feet cannot be seen, since nobody knows where each track starts.
+feet is unobservable, since the place where each track starts is unknown.
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("bag", metavar="BAG", help="rosbag2 folder (or its one file) of a walk")
+    add_bag_argument(parser, f"{BAG} of a walk")
     parser.add_argument(
         "-o",
         "--output",
@@ -38,19 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="parameter file to write, for --config and the nodes, with a figure beside it",
     )
     parser.add_argument("--overwrite", action="store_true", help="replace an existing FILE.yaml")
-    parser.add_argument(
-        "--config",
-        metavar="YAML",
-        help="parameter file or preset for the tracker; what counts here are gravity, alignment, "
-        "stance and zupt",
-    )
-    parser.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        help="one tracker parameter by its dotted name; may be repeated, wins over --config",
-    )
+    add_config_arguments(parser, "; only gravity, alignment, stance and zupt count here")
     common.add_output_arguments(parser)
     add_usable_arguments(parser)
 
@@ -59,37 +56,36 @@ def run(args: argparse.Namespace) -> int:
     """Track without constraints, fit, write, print; return the exit code."""
     from ...calibration import CalibrationError, fit_spacing
     from ...evaluation import track
-    from ...inspection import free_config
+    from ...inspection import unconstrained_config
     from ...recording import check_file
-    from ...settings import load_config
 
     if args.output is not None:
         check_file(args.output, overwrite=args.overwrite)
-    config = free_config(load_config(args.config, dict(setting(text) for text in args.set)))
+    config = unconstrained_config(tracker_config(args))
     fit = fit_spacing(track(load_usable(args.bag, args), config), config)
     if fit.swapped:
-        raise CalibrationError(_swapped(fit))
+        raise CalibrationError(_exchanged_message(fit))
     files = [] if args.output is None else _write(args, fit)
-    lines = [*_words(args.bag, fit), *map(str, files)]
+    lines = [*_lines(args.bag, fit), *map(str, files)]
     common.show(args, {**_facts(fit), "files": [str(f) for f in files]}, lines)
     if not fit.seen:
-        common.warn(_unseen(fit))
+        common.warn(_unobservable_message(fit))
     return 0
 
 
-def _swapped(fit: SpacingFit) -> str:
+def _exchanged_message(fit: SpacingFit) -> str:
     return (
         f"the left foot walks {-fit.feet.spacing_m:.2f} +- {fit.feet.std_m:.2f} m on the right of "
         "the right one, so the sensors are exchanged; exchange --left-topic and --right-topic"
     )
 
 
-def _unseen(fit: SpacingFit) -> str:
+def _unobservable_message(fit: SpacingFit) -> str:
     return (
         f"the walk turned through {math.degrees(fit.feet.turned_rad):.0f} degrees, which leaves "
         f"the distance of the feet unknown ({fit.feet.spacing_m:.2f} +- {fit.feet.std_m:.2f} m): "
-        "where each track starts cannot be told from it without turns, and over a long way the "
-        "tracks drift; walk a few turns to either side within some 50 m. Only kappa is told"
+        "without turns the place where each track starts is unobservable, and over a long way the "
+        "tracks drift; walk a few turns to either side within some 50 m. Only kappa is estimated"
     )
 
 
@@ -99,7 +95,7 @@ def _write(args: argparse.Namespace, fit: SpacingFit) -> list[Path]:
 
     name = Path(args.bag).name
     remarks = [f"The feet in passing, measured on '{name}' ('dualfoot calibrate spacing').", ""]
-    remarks += [line.strip() for line in _words(name, fit)]
+    remarks += [line.strip() for line in _lines(name, fit)]
     write_text(args.output, parameter_text(fit.parameters(), [r for r in remarks if r]))
     files = [args.output]
     if not args.no_plots:
@@ -109,7 +105,7 @@ def _write(args: argparse.Namespace, fit: SpacingFit) -> list[Path]:
     return files
 
 
-def _words(name: str, fit: SpacingFit) -> Iterator[str]:
+def _lines(name: str, fit: SpacingFit) -> Iterator[str]:
     feet = fit.feet
     yield (
         f"{name}: the feet pass {len(fit.passings)} times, the walk turns through "
@@ -120,7 +116,7 @@ def _words(name: str, fit: SpacingFit) -> Iterator[str]:
         yield f"  c0 {fit.c0_m:.3f} m, the swinging foot being {fit.height_m:.3f} m up"
         yield f"  step width {fit.step_width_m:.3f} m"
     else:
-        yield "  c0 and step width: not seen on this walk"
+        yield "  c0 and step width: not observable on this walk"
     yield f"  the distance varies by {feet.scatter_m:.3f} m from step to step"
     yield f"  kappa {fit.kappa:.3f}, from step to step +- {fit.kappa_std:.3f}"
 

@@ -13,6 +13,8 @@ Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]
 
 AXES = re.compile(r"\s*([+-]?)([xyz])\s*,?\s*([+-]?)([xyz])\s*,?\s*([+-]?)([xyz])\s*")
+FORWARD_LEFT_UP = "+x+y+z"  # the axes of the body
+RIGHT_FRONT_UP = "+y-x+z"
 IDENTITY: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 

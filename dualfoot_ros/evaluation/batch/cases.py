@@ -1,4 +1,4 @@
-"""What is compared: methods and presets by name, and sweeps of a parameter."""
+"""The cases of a comparison: methods and presets by name, and sweeps of a parameter."""
 
 from __future__ import annotations
 
@@ -46,13 +46,13 @@ class Sweep:
         except ValueError:
             numbers = []
         if not (name and numbers) or not np.isfinite(numbers).all():
-            raise EvaluationError(_what(text))
+            raise EvaluationError(_sweep_help(text))
         if ":" in values:
             numbers = _stepped(text, numbers)
         return cls(name, tuple(numbers))
 
     def parameter(self, method: str) -> str | None:
-        """Return the dotted name of what is swept for ``method``, None when it has no such."""
+        """Return the dotted name of the swept parameter of ``method``, None if it has none."""
         name = SHORT.get(self.name, self.name)
         dotted = name if "." in name else f"{method}.{name}"
         group = dotted.partition(".")[0]
@@ -63,7 +63,7 @@ class Sweep:
 
 def _stepped(text: str, numbers: list[float]) -> list[float]:
     if len(numbers) != 3 or numbers[2] <= 0.0 or numbers[1] < numbers[0]:
-        raise EvaluationError(_what(text))
+        raise EvaluationError(_sweep_help(text))
     start, stop, step = numbers
     count = int((stop - start) / step + 1e-9) + 1
     if count > MOST_VALUES:
@@ -71,7 +71,7 @@ def _stepped(text: str, numbers: list[float]) -> list[float]:
     return [round(start + k * step, 12) for k in range(count)]
 
 
-def _what(text: str) -> str:
+def _sweep_help(text: str) -> str:
     return (
         f"--sweep '{text}' is not understood; allowed is NAME=START:STOP:STEP or NAME=A,B,C, "
         "such as kappa=0.4:0.7:0.05 or gamma=3000,6000,9000"
@@ -119,12 +119,12 @@ def make_cases(
     plain = {name: _config(name, base, overrides or {}) for name in names}
     cases = [Case(name, config) for name, config in plain.items()]
     for sweep in sweeps:
-        found = [case for name, config in plain.items() for case in _swept(name, config, sweep)]
-        if not found:
+        swept = [case for name, config in plain.items() for case in _swept(name, config, sweep)]
+        if not swept:
             raise EvaluationError(
                 f"no method among {', '.join(plain)} has the parameter '{sweep.name}' to sweep"
             )
-        cases += found
+        cases += swept
     return cases
 
 

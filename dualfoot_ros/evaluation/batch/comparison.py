@@ -1,8 +1,7 @@
-"""One method on one bag, reduced to what tables and figures of many of them need."""
+"""One case on one bag, reduced to the figures that tables and plots of many of them need."""
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import lru_cache
@@ -11,17 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from ...core import EvaluationError, FloatArray, IntArray
+from ...core import EvaluationError, FloatArray, IntArray, swing_passings
 from ...core.compiler import compiled
-from ...inspection import require_usable
+from ...inspection import Finding, check_usable
 from ...recording import Recording, Topics, read_bag
-from ..evaluate import Evaluation, evaluate
+from ..evaluate import Evaluation
 from ..frames.gauge import Options, Truth
 from ..metrics.accuracy import Statistics, statistics
-from ..metrics.foot_passings import passings
 from ..metrics.repeated_walk import STRIDE, StridePlace, repeated, stride_place
 from ..plain import plain
-from ..track import track, truth_of
+from ..run import RunOptions, run_checked
 from .cases import Case
 
 TRACK_POINTS = 1500
@@ -43,7 +41,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Tracks:
-    """What a figure from above shows: (K, 2) m by foot, thinned."""
+    """Tracks from above for a figure: (K, 2) m by foot, thinned."""
 
     estimate: Mapping[str, FloatArray]
     truth: Mapping[str, FloatArray]
@@ -52,13 +50,13 @@ class Tracks:
 
 @dataclass(frozen=True)
 class Entry:
-    """What came of a job.
+    """The figures of one case on one bag.
 
     Attributes
     ----------
-    metrics : everything ``dualfoot evaluate --json`` tells
-    minima : estimate minus truth of the distance of the feet where they truly pass closest (m),
-        the same moments for every method; None without truth (Liu et al. 2023, Table II)
+    metrics : the figures of ``dualfoot evaluate --json``
+    minima : m, estimate minus truth of the distance between the feet where they truly pass
+        closest, the same moments for every method; None without truth (Liu et al. 2023, Table II)
     stride : the feet at the 68th stride, None on shorter walks (Ma and Särkkä 2023, Table I)
     run_s : CPU time of time alignment and tracking, s (Liu et al. 2023, Table IV)
     """
@@ -93,27 +91,22 @@ def compare_one(job: Job) -> Entry:
     ------
     DualFootError
         When the bag cannot be used, or nothing was tracked; or for a repeated walk with an aid
-        that needs what is not repeated.
+        whose measurements cannot be repeated.
     """
     _check_repeatable(job)
     topics = job.left_topic, job.right_topic
-    recording = _read(job.bag, topics, job.allow_nan, job.repeat)
-    _warm_up()
-    begin = time.process_time()
-    trajectory = track(recording, job.case.config)
-    run_s = time.process_time() - begin
-    reference = recording.reference
-    truth = truth_of(recording)
-    found = evaluate(trajectory, truth=truth, reference=reference, options=job.options)
-    markers = None if reference is None else reference.markers.get("right")
+    recording, findings = _read(job.bag, topics, job.allow_nan, job.repeat)
+    _load_compiled()
+    options = RunOptions(alignment=job.options, check_feet=False)
+    evaluation = run_checked(recording, job.case.config, options, findings)
     return Entry(
         job.bag,
         job.case,
-        found.to_dict(),
-        _distance_errors(found),
-        stride_place(trajectory, markers),
-        run_s,
-        _tracks(found),
+        evaluation.to_dict(),
+        _distance_errors(evaluation),
+        stride_place(evaluation.tracked, evaluation.markers.get("right")),
+        evaluation.run_s or 0.0,
+        _tracks(evaluation),
     )
 
 
@@ -131,37 +124,39 @@ def _check_repeatable(job: Job) -> None:
 @lru_cache(maxsize=1)
 def _read(
     bag: str, names: tuple[str | None, str | None], allow_nan: bool, repeat: int
-) -> Recording:
-    """Read a bag; a process that runs several methods on it in a row reads it once."""
+) -> tuple[Recording, tuple[Finding, ...]]:
+    """Read and check a bag; a process that runs several methods in a row on it does so once."""
     usual = Topics()
     left, right = (
         replace(foot, imu=name or foot.imu)
         for foot, name in zip((usual.left, usual.right), names, strict=True)
     )
     recording = read_bag(Path(bag), topics=replace(usual, left=left, right=right))
-    require_usable(recording, allow_not_finite=allow_nan)
-    return repeated(recording, repeat)
+    findings = check_usable(recording, allow_not_finite=allow_nan)
+    return repeated(recording, repeat), findings
 
 
 @lru_cache(maxsize=1)
-def _warm_up() -> None:
-    """Load the compiled kernel, so that it does not count in anyone's run time."""
+def _load_compiled() -> None:
+    """Load the compiled kernel, so that loading it counts in no run time."""
     try:
         compiled()
     except ImportError:
         return
 
 
-def _distance_errors(found: Evaluation) -> Statistics | None:
+def _distance_errors(evaluation: Evaluation) -> Statistics | None:
     """Return the statistics of Table II at the true minima, None without truth or passings."""
-    if found.truth is None:
+    if evaluation.truth is None:
         return None
-    run = found.trajectory
-    at = least_distances(found.truth, run.left.stance, run.right.stance)
+    run = evaluation.trajectory
+    at = least_distances(evaluation.truth, run.left.stance, run.right.stance)
     if len(at) == 0:
         return None
     apart = np.linalg.norm((run.left.position - run.right.position)[at], axis=1)
-    true = np.linalg.norm((found.truth[0].position - found.truth[1].position)[at], axis=1)
+    true = np.linalg.norm(
+        (evaluation.truth[0].position - evaluation.truth[1].position)[at], axis=1
+    )
     return statistics(apart - true)
 
 
@@ -170,17 +165,18 @@ def least_distances(truth: Truth, left_stance: np.ndarray, right_stance: np.ndar
     left, right = truth
     apart = np.linalg.norm(left.position - right.position, axis=1)
     near = max(1, int(NEAR_S * 1e9 / float(np.median(np.diff(left.stamp_ns)))))
-    found = []
-    for middle in passings(left.position, right.position, left_stance, right_stance).index:
+    closest = []
+    passings = swing_passings(left.position, right.position, left_stance, right_stance)
+    for middle in passings.index:
         first = max(0, int(middle) - near)
-        found.append(first + int(np.argmin(apart[first : int(middle) + near + 1])))
-    return np.unique(np.array(found, dtype=np.int64))
+        closest.append(first + int(np.argmin(apart[first : int(middle) + near + 1])))
+    return np.unique(np.array(closest, dtype=np.int64))
 
 
-def _tracks(found: Evaluation) -> Tracks:
-    estimate = {name: thinned(foot.position) for name, foot in found.feet_tracks.items()}
-    truth = {} if found.truth is None else dict(zip(estimate, found.truth, strict=True))
-    aligned = found.markers if found.aligned_to == "markers" else {}
+def _tracks(evaluation: Evaluation) -> Tracks:
+    estimate = {name: thinned(foot.position) for name, foot in evaluation.feet_tracks.items()}
+    truth = {} if evaluation.truth is None else dict(zip(estimate, evaluation.truth, strict=True))
+    aligned = evaluation.markers if evaluation.aligned_to == "markers" else {}
     return Tracks(
         estimate,
         {name: thinned(series.position) for name, series in truth.items()},

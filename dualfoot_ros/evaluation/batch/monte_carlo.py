@@ -1,4 +1,4 @@
-"""Many simulated walks: whether the covariance is as large as the errors are.
+"""Consistency of the filter: NEES and NIS over many simulated walks.
 
 For a consistent filter the NEES of a quantity with d dimensions is chi-square distributed with d
 degrees of freedom, and so is the NIS of a measurement (Bar-Shalom et al. 2001, section 5.4).  Over
@@ -9,8 +9,8 @@ for the NEES every walk counts once there too.
 
 Position and heading of the start are a gauge.  The tracker's is: origin midway between the feet,
 x along the first strides (``heading.from_stance`` to ``heading.to_stance``) of the foot that made
-them first.  The truth is brought into that gauge by where the feet truly were then, and by nothing
-else: unlike with an alignment by the estimate, no error is taken away.
+them first.  The truth is brought into that gauge by the true positions of the feet at those
+strides alone: unlike an alignment to the estimate, this removes no error.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ import numpy as np
 from ...core import (
     FEET,
     METHODS,
-    DualFootTracker,
     EvaluationError,
     EventKind,
     FloatArray,
@@ -33,11 +32,13 @@ from ...core import (
     TrackerConfig,
     Trajectory,
 )
+from ...recording import Recording
 from ...simulation import BarometerConfig, MagnetometerConfig, SensorConfig, WalkConfig, simulate
 from ..frames.association import Footfalls
 from ..frames.gauge import Truth, overlap
 from ..frames.yaw_transform import YawTransform
 from ..metrics.nees import attitude_error, nees
+from ..track import track
 
 POINTS = 40
 CONFIDENCE = 0.95
@@ -56,7 +57,7 @@ class WalkJob:
 
 @dataclass(frozen=True)
 class WalkScores:
-    """What one walk contributes.
+    """The scores of one walk.
 
     Attributes
     ----------
@@ -78,13 +79,13 @@ def score_walk(job: WalkJob) -> WalkScores:
     EvaluationError
         When the walk has too few stances to have a heading.
     DualFootError
-        What the tracker refuses.
+        When the tracker refuses the walk.
     """
     aids = job.config.aids
     barometer = BarometerConfig() if aids.barometer else None
     magnetometer = MagnetometerConfig() if aids.magnetic_heading else None
     made = simulate(job.walk, job.sensor, None, job.seed, barometer, magnetometer)
-    run = DualFootTracker(job.config).run(made.left, made.right, made.pressure)
+    run = track(Recording(made.left, made.right, pressure=made.pressure), job.config)
     nis = _nis(run)
     run, truth = overlap(run, (made.left_truth, made.right_truth))
     truth = in_gauge(truth, run, job.config)
@@ -177,18 +178,18 @@ def _nis(run: Trajectory) -> dict[str, FloatArray]:
 
 @dataclass(frozen=True)
 class Score:
-    """How honest one quantity is over all walks.
+    """The consistency of one quantity over all walks.
 
     Attributes
     ----------
     kind : "NEES" or "NIS"
     dimensions : degrees of freedom (of a constraint: of its innovation)
-    mean : NEES or NIS over the dimensions, mean over time and walks; 1 is honest
+    mean : NEES or NIS over the dimensions, mean over time and walks; 1 if consistent
     band : where the mean lies with probability ``CONFIDENCE`` if the filter is consistent
     curve : (POINTS,) means over the walks at equal steps (NEES only)
     curve_band : where each of them lies with that probability
-    inside : share of the points that do
-    error, std : root mean square error along one axis, and what the filter thought of it
+    inside : share of the points that lie within
+    error, std : root mean square error along one axis, and the standard deviation of the filter
     """
 
     name: str
@@ -215,15 +216,15 @@ def band(count: int, dimensions: int) -> tuple[float, float]:
 
 def summarise(walks: Sequence[WalkScores], config: TrackerConfig) -> list[Score]:
     """Return the scores of all quantities over ``walks``."""
-    found = [_nees_score(name, walks) for name in walks[0].nees]
+    scores = [_nees_score(name, walks) for name in walks[0].nees]
     for name in walks[0].nis:
         values = np.concatenate([walk.nis[name] for walk in walks])
         dimensions = 3 if name == "zero velocity" else constraint_dimensions(config)
         if len(values):
             limits = band(len(values), dimensions)
             mean = float(values.mean())
-            found.append(Score(name, "NIS", dimensions, mean, limits, len(values)))
-    return found
+            scores.append(Score(name, "NIS", dimensions, mean, limits, len(values)))
+    return scores
 
 
 def _nees_score(name: str, walks: Sequence[WalkScores]) -> Score:
@@ -247,5 +248,5 @@ def _nees_score(name: str, walks: Sequence[WalkScores]) -> Score:
 
 
 def constraint_dimensions(config: TrackerConfig) -> int:
-    """Return how many components the constraint of the method observes at once."""
+    """Return the number of components that the constraint of the method observes at once."""
     return METHODS[config.method](config.constraint).dimensions

@@ -1,4 +1,4 @@
-"""Bring a reference to the stamps of an estimate, and follow the feet from stance to stance."""
+"""A reference at the stamps of an estimate, and the feet from stance to stance."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Fix the frame of a trajectory of both feet to its truth or to floor markers."""
+"""Alignment of the trajectory of both feet to its truth or to floor markers."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ Truth = tuple[PoseSeries, PoseSeries]
 
 @dataclass(frozen=True)
 class Options:
-    """How to align: the method, one transform for both feet or for each, the length (m)."""
+    """The alignment: method, one transform for both feet or for each, length (m)."""
 
     align: Align = Align.FIRST_STRIDES
     pair: Pair = Pair.COMMON
     length_m: float = FIRST_STRIDES_M
 
     def words(self, to: str) -> str:
-        """Say how the frame is fixed to ``to``; markers always take one transform."""
-        each = self.pair is Pair.EACH and to == "truth"
-        feet = "one transform for each foot" if each else "one transform for both feet"
+        """Describe how the frame is fixed to ``to``; markers always take one transform."""
+        separate = self.pair is Pair.EACH and to == "truth"
+        feet = "one transform for each foot" if separate else "one transform for both feet"
         if self.align is Align.UMEYAMA4:
             how = "yaw and translation of the best fit over the whole walk"
         else:
@@ -48,12 +48,12 @@ def overlap(trajectory: Trajectory, truth: Truth) -> tuple[Trajectory, Truth]:
 def find_transforms(
     trajectory: Trajectory, truth: Truth | None, markers: Markers, options: Options
 ) -> tuple[dict[str, YawTransform], str | None]:
-    """Return the transform of each foot and what it aligns to; none without a reference.
+    """Return the transform of each foot and the reference it aligns to; none without one.
 
     Raises
     ------
     EvaluationError
-        When the walk shows no heading for ``first_strides``.
+        When ``first_strides`` finds no heading in the walk.
     """
     if truth is not None:
         return _to_truth(trajectory, truth, options), "truth"
@@ -83,7 +83,7 @@ def _to_truth(trajectory: Trajectory, truth: Truth, options: Options) -> dict[st
 
 
 def to_markers(trajectory: Trajectory, markers: Markers, options: Options) -> YawTransform | None:
-    """Fit the feet that stood on markers; None when none did or too few stances were found.
+    """Fit the feet that stood on markers; return None without markers or with too few stances.
 
     With ``umeyama4`` a foot whose stances are not as many as its markers does not take part.
     """

@@ -1,4 +1,4 @@
-"""Bring an estimate into the frame of its reference by what inertial navigation cannot see.
+"""Transforms in yaw and translation, which are unobservable, from an estimate to its reference.
 
 Position and heading of the start are a gauge: four degrees of freedom (yaw and translation) that
 no inertial sensor observes.  Roll and pitch are observed, so they are never aligned away.  Two
@@ -28,7 +28,7 @@ FIRST_STRIDES_M = 4.8
 
 
 class Align(StrEnum):
-    """How the frame of an estimate is fixed to that of the reference."""
+    """The method that fixes the frame of an estimate to that of the reference."""
 
     FIRST_STRIDES = "first_strides"
     UMEYAMA4 = "umeyama4"
@@ -96,7 +96,7 @@ def umeyama4(estimate: FloatArray, reference: FloatArray) -> YawTransform:
     """Return the yaw and translation of least squared distance between (N, 3) point pairs."""
     centre_e, centre_r = estimate.mean(axis=0), reference.mean(axis=0)
     yaw = _best_yaw(estimate - centre_e, reference - centre_r)
-    return _through(yaw, centre_e, centre_r)
+    return _transform_through(yaw, centre_e, centre_r)
 
 
 def first_strides(
@@ -127,7 +127,7 @@ def first_strides(
     yaw = _best_yaw(np.vstack(from_e), np.vstack(from_r))
     start_e = np.mean([e[0] for e in estimate], axis=0)
     start_r = np.mean([r[0] for r in reference], axis=0)
-    return _through(yaw, start_e, start_r)
+    return _transform_through(yaw, start_e, start_r)
 
 
 def fit(how: Align, estimate: Points, reference: Points, length: float) -> YawTransform:
@@ -143,6 +143,6 @@ def _best_yaw(estimate: FloatArray, reference: FloatArray) -> float:
     return math.atan2(cross, dot)
 
 
-def _through(yaw: float, origin: FloatArray, target: FloatArray) -> YawTransform:
+def _transform_through(yaw: float, origin: FloatArray, target: FloatArray) -> YawTransform:
     turn = YawTransform(yaw, np.zeros(3))
     return YawTransform(yaw, target - turn.position(origin[None])[0])

@@ -11,7 +11,7 @@ from ...core import FloatArray, FootTrajectory, PoseSeries
 from ..frames.association import Footfalls
 
 MARKS_M = 200.0
-"""Errors are told at every 200 m of the way, as in Table III of Liu et al. 2023."""
+"""Errors are given at every 200 m of the way, as in Table III of Liu et al. 2023."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Errors:
     rmse_m, max_m : over all epochs (``rmse_m`` is the absolute trajectory error, ATE)
     rmse_horizontal_m, rmse_vertical_m : the same in and out of the plane
     end_m : at the last epoch
-    end_percent : of the walked distance of the truth (None where nobody walked)
+    end_percent : of the walked distance of the truth (None where that is zero)
     at_distance_m : error where the truth has walked 200, 400, ... m
     """
 
@@ -140,5 +140,5 @@ def rms(values: FloatArray) -> float:
 
 
 def percent(part: float, whole: float) -> float | None:
-    """Return ``part`` in percent of ``whole``, or None where the whole is nothing."""
+    """Return ``part`` in percent of ``whole``, or None where the whole is zero."""
     return 100.0 * part / whole if whole > 1e-6 else None

@@ -1,4 +1,4 @@
-"""How far the end of a walk is from its start."""
+"""Loop closure: the distance from the start of a walk to its end."""
 
 from __future__ import annotations
 

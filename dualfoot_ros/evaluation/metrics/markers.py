@@ -12,7 +12,7 @@ from .accuracy import rms
 
 @dataclass(frozen=True)
 class MarkerErrors:
-    """How far the stances of one foot are from the markers it stood on, horizontally.
+    """Horizontal distances of the stances of one foot from the markers it stood on.
 
     Attributes
     ----------

@@ -1,9 +1,9 @@
-"""Normalised estimation error squared (NEES): whether the covariance can be believed.
+"""Normalised estimation error squared (NEES): consistency of the covariance with the errors.
 
 For a consistent filter ``e' P^-1 e`` has the mean of its number of dimensions (Bar-Shalom et al.
-2001, section 5.4), so the figures here, divided by that number, are 1 when the covariance is
-honest, above when it promises too much.  Heading and position are compared after the alignment,
-so they leave out what the alignment took away.
+2001, section 5.4), so the figures here, divided by that number, are 1 for a consistent filter and
+larger for an over-confident one.  Heading and position are compared after the alignment, so the
+errors that it removes do not count.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from ...core import FloatArray, FootTrajectory, IntArray, PoseSeries
 
 SMALLEST_STD = 1e-4
-"""Below this (m, m/s, rad) no covariance is believed; after a hard constraint it is zero."""
+"""Lower bound of the standard deviations (m, m/s, rad); a hard constraint makes them zero."""
 
 
 def nees(error: FloatArray, covariance: FloatArray) -> FloatArray:
@@ -31,7 +31,7 @@ def nees(error: FloatArray, covariance: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True)
 class Consistency:
-    """Mean NEES over the stances' middles, divided by the dimension (1 is honest)."""
+    """Mean NEES over the stances' middles, divided by the dimension (1 if consistent)."""
 
     left_position: float
     right_position: float

@@ -1,8 +1,8 @@
-"""A walk repeated end to end, and where its feet are many strides later.
+"""A walk repeated end to end, and the places of its feet many strides later.
 
 Ma and Särkkä 2023, IV-A and Table I: each rectangle is repeated four times, and the feet's places
-at the middle of their 68th stance are compared.  The sensors do not know that the next round
-starts elsewhere: it is walked on from where, and in the direction in which, the last one ended.
+at the middle of their 68th stance are compared.  To the sensors the next round is a
+continuation: it starts where, and in the direction in which, the last one ended.
 A rectangle that ends 90 degrees to the right of its start becomes a windmill.
 """
 
@@ -22,9 +22,9 @@ LEFT_FROM_RIGHT = (0.6, 0.2)  # forward and left, m: half a stride behind, 0.2 m
 
 
 def repeated(recording: Recording, times: int) -> Recording:
-    """Return the samples of both feet ``times`` times in a row, on one grid, and nothing else.
+    """Return the samples of both feet ``times`` times in a row, on one grid, without truth.
 
-    Floor markers go along with the rounds turned and joined; a closed loop stays none.
+    The floor markers of all rounds are turned and joined; the result is no closed loop.
     """
     if times == 1:
         return recording
@@ -33,7 +33,7 @@ def repeated(recording: Recording, times: int) -> Recording:
     left, right = align(recording.left, recording.right)
     if len(left) < 2:
         raise EvaluationError("the feet share no time, so there is nothing to repeat")
-    feet = [_in_a_row(foot, times) for foot in (left, right)]
+    feet = [_repeat_samples(foot, times) for foot in (left, right)]
     reference = recording.reference
     if reference is not None:
         markers = {foot: rounds(points, times) for foot, points in reference.markers.items()}
@@ -50,7 +50,7 @@ def repeated(recording: Recording, times: int) -> Recording:
     )
 
 
-def _in_a_row(series: ImuSeries, times: int) -> ImuSeries:
+def _repeat_samples(series: ImuSeries, times: int) -> ImuSeries:
     interval = int(np.median(np.diff(series.stamp_ns)))
     length = int(series.stamp_ns[-1] - series.stamp_ns[0]) + interval
     stamps = np.concatenate([series.stamp_ns + k * length for k in range(times)])
@@ -71,12 +71,12 @@ def rounds(points: FloatArray, times: int) -> FloatArray:
     way = points - points[0]
     out, home = way[1], way[-1] - way[-2]
     turn = np.arctan2(home[1], home[0]) - np.arctan2(out[1], out[0])
-    start, found = points[0], [points[:1]]
+    start, joined = points[0], [points[:1]]
     for k in range(times):
         turned = way @ _rotation(k * turn).T + start
-        found.append(turned[1:])
+        joined.append(turned[1:])
         start = turned[-1]
-    return np.concatenate(found)
+    return np.concatenate(joined)
 
 
 def _rotation(yaw: float) -> FloatArray:
@@ -86,7 +86,7 @@ def _rotation(yaw: float) -> FloatArray:
 
 @dataclass(frozen=True)
 class StridePlace:
-    """Where the feet are at the middle of a stance, in the frame of Table I of the paper.
+    """The places of the feet at the middle of a stance, in the frame of Table I of the paper.
 
     The right foot starts at the origin, y points along the first strides, x to the right; all in
     m.  ``true_*`` is from the floor markers of the right foot, None where there are none or not as
@@ -120,17 +120,17 @@ def stride_place(
         _paper_axes(foot.position[k] - start)
         for foot, k in zip((trajectory.left, trajectory.right), at, strict=True)
     )
-    true_right, true_left = _true(markers, number, len(falls[1]))
+    true_right, true_left = _true_places(markers, number, len(falls[1]))
     return StridePlace(right, left, true_right, true_left)
 
 
 Place = tuple[float, float]
 
 
-def _true(
+def _true_places(
     markers: FloatArray | None, number: int, stances: int
 ) -> tuple[Place | None, Place | None]:
-    """Return where the markers say that the feet are, the first leg being the y axis."""
+    """Return the places of the feet by the markers, the first leg being the y axis."""
     if markers is None or len(markers) != stances:
         return None, None
     way = markers - markers[0]

@@ -2,18 +2,19 @@
 
 from .comparison_rows import csv_text, flat
 from .comparison_tables import tables
-from .output import check_directory, staged, write_metrics
+from .output import METRICS, check_directory, report_folder, write_json
 from .tum import write_tracks
 from .walk_table import number, walk_table
 
 __all__ = [
+    "METRICS",
     "check_directory",
     "csv_text",
     "flat",
     "number",
-    "staged",
+    "report_folder",
     "tables",
     "walk_table",
-    "write_metrics",
+    "write_json",
     "write_tracks",
 ]

@@ -5,26 +5,27 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..batch.comparison import Entry
+if TYPE_CHECKING:
+    from ..batch import Entry
 
 Figure = float | None
 
 
 def flat(entry: Entry) -> dict[str, Any]:
     """Return one row of plain figures; None where there is none."""
-    found = entry.to_dict()
-    row: dict[str, Any] = {"bag": entry.bag, "case": entry.case.label, "method": found["method"]}
+    figures = entry.to_dict()
+    row: dict[str, Any] = {"bag": entry.bag, "case": entry.case.label, "method": figures["method"]}
     name, value = entry.case.swept or (None, None)
     row |= {"swept": name, "value": value}
     for column, path in COLUMNS.items():
-        open_walk = path.startswith("closure.") and not found["closed_loop"]
-        row[column] = None if open_walk else _at(found, path)
+        open_walk = path.startswith("closure.") and not figures["closed_loop"]
+        row[column] = None if open_walk else _look_up(figures, path)
     for foot in ("left", "right"):
-        for mark, error in (_at(found, f"truth.{foot}.at_distance_m") or {}).items():
+        for mark, error in (_look_up(figures, f"truth.{foot}.at_distance_m") or {}).items():
             row[f"{foot}_error_at_{mark}_m"] = error
     row |= stride_errors(entry)
     row["run_s"] = entry.run_s
@@ -59,16 +60,16 @@ COLUMNS = {
 }
 
 
-def _at(found: Any, path: str) -> Any:
+def _look_up(value: Any, path: str) -> Any:
     for key in path.split("."):
-        if not isinstance(found, dict):
+        if not isinstance(value, dict):
             return None
-        found = found.get(key)
-    return found
+        value = value.get(key)
+    return value
 
 
 def stride_errors(entry: Entry) -> dict[str, Figure]:
-    """Return what Table I of Ma and Särkkä 2023 lists, for one walk."""
+    """Return the figures of one walk in Table I of Ma and Särkkä 2023."""
     place = entry.stride
     if place is None:
         return {}
@@ -95,21 +96,21 @@ def csv_text(rows: Sequence[dict[str, Any]]) -> str:
 
 def values(rows: Iterable[dict[str, Any]], column: str) -> list[float]:
     """Return the figures of a column, without the rows that have none."""
-    found = (row.get(column) for row in rows)
-    return [float(v) for v in found if v is not None]
+    figures = (row.get(column) for row in rows)
+    return [float(v) for v in figures if v is not None]
 
 
 def over_bags(
     rows: Sequence[dict[str, Any]], column: str, how: Callable[[list[float]], Any] = np.median
 ) -> Figure:
     """Return a column summed up over the bags, by default its median."""
-    found = values(rows, column)
-    return float(how(found)) if found else None
+    figures = values(rows, column)
+    return float(how(figures)) if figures else None
 
 
 def by_case(rows: Iterable[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:
     """Return the rows by case, cases in the order of their first row."""
-    found: dict[str, list[dict[str, Any]]] = {}
+    cases: dict[str, list[dict[str, Any]]] = {}
     for row in rows:
-        found.setdefault(row["case"], []).append(row)
-    return found
+        cases.setdefault(row["case"], []).append(row)
+    return cases

@@ -74,10 +74,10 @@ def _overview(rows: Sequence[dict[str, Any]], bags: int, title: str = "methods")
 
 
 def _spread(rows: Sequence[dict[str, Any]], column: str, digits: int) -> str:
-    found = values(rows, column)
-    if len(found) < 2:
-        return number(found[0] if found else None, digits)
-    size = np.abs(found) if column in SIGNED else np.array(found)
+    figures = values(rows, column)
+    if len(figures) < 2:
+        return number(figures[0] if figures else None, digits)
+    size = np.abs(figures) if column in SIGNED else np.array(figures)
     return f"{number(float(np.median(size)), digits)} ({number(float(size.max()), digits)})"
 
 

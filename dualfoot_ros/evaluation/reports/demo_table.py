@@ -1,4 +1,4 @@
-"""The report of a demonstration: what several methods published on one recording."""
+"""The report of a demonstration: tracks of several methods on one recording."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ...recording import Recording
 from ..evaluate import Evaluation, evaluate
 from ..frames.gauge import Options
 from ..track import truth_of
-from .output import staged, write_metrics
+from .output import METRICS, report_folder, write_json
 from .plots import draw_all
 from .tum import write_tracks
 from .walk_table import methods_table
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Report:
-    """What came out: figures of each method, and the files that were written."""
+    """The evaluations by method, and the files that were written."""
 
     title: str
     runs: dict[str, Evaluation]
@@ -54,7 +54,7 @@ def demo_report(
 
     Parameters
     ----------
-    runs : name of the method -> what it estimated, live or offline
+    runs : name of the method -> its trajectory, live or offline
     recording : with the truth of both feet
     out_dir : folder of the report
 
@@ -68,16 +68,18 @@ def demo_report(
         raise EvaluationError("no trajectory to report on")
     if truth is None:
         raise EvaluationError("the recording has no truth of both feet to compare with")
-    found = {
+    evaluations = {
         name: evaluate(run, truth=truth, reference=recording.reference, options=options)
         for name, run in runs.items()
     }
     target = Path(out_dir)
-    with staged(target) as folder:
-        figures = draw_all(found, folder, title)
-        tracks = [p for name, run in found.items() for p in write_tracks(folder, run, f"{name}_")]
+    with report_folder(target) as folder:
+        figures = draw_all(evaluations, folder, title)
+        tracks = [
+            p for name, run in evaluations.items() for p in write_tracks(folder, run, f"{name}_")
+        ]
         written = (*figures, *tracks)
         paths = tuple(target / path.name for path in written)
-        report = Report(title, found, (*paths, target / "metrics.json"))
-        write_metrics(folder, report.to_dict())
+        report = Report(title, evaluations, (*paths, target / METRICS))
+        write_json(folder / METRICS, report.to_dict())
     return report

@@ -1,16 +1,15 @@
-"""Write the files of a report whole or not at all."""
+"""The folder of a report: written whole or not at all."""
 
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from ...core import EvaluationError
+from ...recording import new_files
 
 METRICS = "metrics.json"
 OWN = (METRICS, "*.tum", "*.png")
@@ -24,25 +23,24 @@ def check_directory(directory: Path) -> None:
 
 
 @contextmanager
-def staged(directory: Path) -> Iterator[Path]:
-    """Yield an empty folder beside ``directory``; its files go there when the block ends well.
+def report_folder(directory: Path) -> Iterator[Path]:
+    """Yield an empty folder; its files go to ``directory`` when the block ends well.
 
     An existing folder is kept; of its files those of an earlier report are replaced.
+
+    Raises
+    ------
+    EvaluationError
+        When ``directory`` is a file.
+    OSError
+        When nothing can be written there.
     """
     check_directory(directory)
-    directory.parent.mkdir(parents=True, exist_ok=True)
-    prefix = f".{directory.name}."
-    with tempfile.TemporaryDirectory(prefix=prefix, dir=directory.parent) as scratch:
-        yield Path(scratch)
-        directory.mkdir(exist_ok=True)
-        for stale in (path for pattern in OWN for path in directory.glob(pattern)):
-            stale.unlink()
-        for path in Path(scratch).iterdir():
-            os.replace(path, directory / path.name)
+    with new_files(directory, replacing=OWN) as folder:
+        yield folder
 
 
-def write_metrics(directory: Path, metrics: Mapping[str, Any]) -> Path:
-    """Write the figures as JSON."""
-    path = directory / METRICS
-    path.write_text(json.dumps(metrics, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+def write_json(path: Path, document: Mapping[str, Any]) -> Path:
+    """Write plain values as JSON and return the path."""
+    path.write_text(json.dumps(document, indent=2, allow_nan=False) + "\n", encoding="utf-8")
     return path

@@ -12,10 +12,16 @@ from typing import Any
 
 import numpy as np
 
-from ...core import FloatArray, ImuSeries, IntArray, RecordingError
+from ...core import (
+    RIGHT_FRONT_UP,
+    FloatArray,
+    ImuSeries,
+    IntArray,
+    RecordingError,
+    axes_matrix,
+)
 from ..recording import Recording
 from ..reference import Reference
-from . import axes
 from .dual_feet_walks import reference_of
 from .options import ImportOptions
 from .sample_counter import same_wrap, unwrap_us
@@ -91,7 +97,7 @@ def _stamps(walk: dict[str, Any], path: Path, foot: str) -> IntArray:
 
 
 def _series(walk: dict[str, Any], path: Path, foot: str, stamp_ns: IntArray) -> ImuSeries:
-    turn = axes.parse(axes.RIGHT_FRONT_UP).T
+    turn = np.array(axes_matrix(RIGHT_FRONT_UP)).T
     columns = {}
     for name in ("acc", "gyros", "mag"):
         column = _field(walk, path, foot, name)

@@ -1,4 +1,4 @@
-"""What is known of the walks of the dual-feet data set: floor markers, and that they close.
+"""References of the walks of the dual-feet data set: floor markers and closed loops.
 
 The right foot steps on markers 1.2 m apart that form a rectangle of 9.6 m by 2.4 m.  Points are
 in the frame of the data set: x to the right and y forward at the start, z up.  A clockwise walk
@@ -35,7 +35,7 @@ FIGURE_EIGHT = (
 
 
 def reference_of(shape: str, direction: int) -> Reference | None:
-    """Return what is known of a walk by its ``pathshape`` and ``pathdirec``; None if nothing."""
+    """Return the reference of a walk by its ``pathshape`` and ``pathdirec``, or None."""
     mirror = -1.0 if direction < 0 else 1.0
     round_ = "clockwise" if direction < 0 else "counter-clockwise"
     if shape == "rec":

@@ -1,4 +1,4 @@
-"""The table of formats, and which one a source is."""
+"""The table of formats, and the choice of one for a source."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .options import ImportOptions
 
 @dataclass(frozen=True)
 class Format:
-    """One format: its name, what it is in words, and the module that loads it."""
+    """One format: its name, its description, and the module that loads it."""
 
     name: str
     description: str
@@ -54,12 +54,12 @@ FORMATS = (
 
 
 def import_recording(options: ImportOptions, name: str = "auto") -> Recording:
-    """Load the sources of ``options`` as format ``name``; "auto" goes by the file names.
+    """Load the sources of ``options`` as format ``name``; "auto" chooses it by the file names.
 
     Raises
     ------
     ConfigError
-        When the axes are none.
+        When the axes are not three signed axes, right-handed.
     RecordingError
         When there is no such format, or the files are not as it says.
     OSError

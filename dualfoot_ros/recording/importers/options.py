@@ -1,32 +1,32 @@
-"""What an importer is told."""
+"""Options of the importers."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
 
-from .axes import IDENTITY
+from ...core import FORWARD_LEFT_UP
 
 
 @dataclass(frozen=True)
 class ImportOptions:
-    """What to import and how; what a format does not need is left at its default.
+    """The files to import and how; options that a format does not need keep their default.
 
     Attributes
     ----------
     sources : files that hold both feet
     left, right : files of one foot each
-    axes : which device axes point forward, left and up, as ``axes.parse`` reads it
+    axes : device axes that point forward, left and up, as ``core.axes_matrix`` reads it
     right_offset_s : added to every stamp of the right foot, s
     field_scale : tesla per unit of the magnetometer, 0 leaves it out
     left_topic, right_topic : sensor_msgs/Imu topics of a bag; None for those this package writes
-    force_unit, rate_unit : units of a bag's samples, as in ``core/units.py``
+    force_unit, rate_unit : units of a bag's samples, keys of ``FORCE_UNITS``, ``RATE_UNITS``
     """
 
     sources: tuple[Path, ...] = ()
     left: Path | None = None
     right: Path | None = None
-    axes: str = IDENTITY
+    axes: str = FORWARD_LEFT_UP
     right_offset_s: float = 0.0
     field_scale: float = 0.0
     left_topic: str | None = None

@@ -33,7 +33,7 @@ def read_pressure(path: Path) -> PressureSeries:
     if not rows:
         raise RecordingError(f"'{path}' holds no samples; expected a line of names, then numbers")
     _check_widths(path, rows)
-    time, pressure = _known(path, rows[0], TIMES), _known(path, rows[0], PRESSURES)
+    time, pressure = _find_column(path, rows[0], TIMES), _find_column(path, rows[0], PRESSURES)
     pascal = _column(path, rows, pressure) * PRESSURES[pressure]
     if time == "stamp_ns":  # nanoseconds of an epoch do not fit a float
         stamps = np.array([_integer(path, row[time], i) for i, row in enumerate(rows)])
@@ -53,14 +53,14 @@ def _check_widths(path: Path, rows: list[dict[str, str]]) -> None:
             )
 
 
-def _known(path: Path, row: dict[str, str], names: dict[str, float]) -> str:
-    found = [name for name in names if name in row]
-    if len(found) != 1:
+def _find_column(path: Path, row: dict[str, str], names: dict[str, float]) -> str:
+    present = [name for name in names if name in row]
+    if len(present) != 1:
         raise RecordingError(
             f"'{path}' has the columns {', '.join(map(str, row))}; "
             f"exactly one must be one of {', '.join(names)}"
         )
-    return found[0]
+    return present[0]
 
 
 def _column(path: Path, rows: list[dict[str, str]], name: str) -> FloatArray:

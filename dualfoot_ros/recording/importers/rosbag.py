@@ -1,15 +1,24 @@
-"""A bag of any two sensor_msgs/Imu topics: other names, axes, or units than they should be."""
+"""A bag of two sensor_msgs/Imu topics of any names, axes and units."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
 
-from ...core import FEET, FORCE_UNITS, RATE_UNITS, FloatArray, ImuSeries, RecordingError
+import numpy as np
+
+from ...core import (
+    FEET,
+    FORCE_UNITS,
+    RATE_UNITS,
+    FloatArray,
+    ImuSeries,
+    RecordingError,
+    axes_matrix,
+)
 from ..read import read_bag
 from ..recording import Recording
 from ..topics import Topics
-from . import axes
 from .options import ImportOptions
 
 
@@ -19,13 +28,13 @@ def load(options: ImportOptions) -> Recording:
     Raises
     ------
     ConfigError
-        When the axes are none.
+        When the axes are not three signed axes, right-handed.
     RecordingError
         When it is no bag, a unit is unknown, or neither topic is there.
     """
     if len(options.sources) != 1 or options.left or options.right:
         raise RecordingError("a bag holds both feet; give exactly one, without --left and --right")
-    rotation = axes.parse(options.axes)
+    rotation = np.array(axes_matrix(options.axes))
     force = _scale("force unit", options.force_unit, FORCE_UNITS)
     rate = _scale("rate unit", options.rate_unit, RATE_UNITS)
     default = Topics()
@@ -36,10 +45,10 @@ def load(options: ImportOptions) -> Recording:
     recording = read_bag(options.sources[0], topics=topics)
     missing = [topics.of(foot).imu for foot in FEET if recording.imu(foot) is None]
     if missing:
-        there = ", ".join(recording.imu_topics) or "none"
+        present = ", ".join(recording.imu_topics) or "none"
         raise RecordingError(
             f"'{options.sources[0]}' has no topic '{missing[0]}'; its sensor_msgs/Imu topics are: "
-            f"{there}; name two of them with --left-topic and --right-topic"
+            f"{present}; name two of them with --left-topic and --right-topic"
         )
     notes = {
         **recording.notes,

@@ -26,7 +26,7 @@ def unwrap_us(counter: ArrayLike) -> IntArray:
 def same_wrap(left_ns: IntArray, right_ns: IntArray) -> tuple[IntArray, IntArray]:
     """Move a foot by whole wraps so that both start within half a wrap, and none before zero.
 
-    Devices that share a clock may stand on different sides of the wrap when they start.
+    Devices that share a clock may start on different sides of the wrap.
     """
     if not (len(left_ns) and len(right_ns)):
         return left_ns, right_ns

@@ -2,7 +2,7 @@
 
 ``Acc_*`` is m/s^2, ``Gyr_*`` deg/s, ``Mag_*`` arbitrary units (1 is the field where the sensor
 was calibrated), ``SampleTimeFine`` the device's microseconds as a 32-bit counter.  The device is
-forward-left-up when it lies flat with its x axis to the toes; ``axes`` says otherwise.
+forward-left-up when it lies flat with its x axis to the toes; ``axes`` describes other mountings.
 """
 
 from __future__ import annotations
@@ -12,9 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ...core import FloatArray, ImuSeries, RecordingError
+from ...core import FORWARD_LEFT_UP, FloatArray, ImuSeries, RecordingError, axes_matrix
 from ..recording import Recording
-from . import axes
 from .options import ImportOptions
 from .sample_counter import same_wrap, unwrap_us
 
@@ -30,7 +29,7 @@ def load(options: ImportOptions) -> Recording:
     Raises
     ------
     ConfigError
-        When the axes are none.
+        When the axes are not three signed axes, right-handed.
     RecordingError
         When a foot is missing or a file is no such export; names the file and the column.
     """
@@ -39,7 +38,7 @@ def load(options: ImportOptions) -> Recording:
             "an Xsens DOT export holds one sensor, and which foot it was on is not in it; give "
             "--left FILE and --right FILE"
         )
-    rotation = axes.parse(options.axes)
+    rotation = np.array(axes_matrix(options.axes))
     left, left_header = _read(options.left, rotation, options.field_scale)
     right, right_header = _read(options.right, rotation, options.field_scale)
     left_ns, right_ns = same_wrap(left.stamp_ns, right.stamp_ns)
@@ -58,19 +57,19 @@ def load(options: ImportOptions) -> Recording:
     )
 
 
-def read_sensor(path: Path, orientation: str = axes.IDENTITY) -> ImuSeries:
-    """Return the samples of one sensor, of whatever foot, as ``axes.parse`` turns them.
+def read_sensor(path: Path, axes: str = FORWARD_LEFT_UP) -> ImuSeries:
+    """Return the samples of one sensor, of either foot, turned to forward-left-up.
 
     Raises
     ------
     ConfigError
-        When the axes are none.
+        When the axes are not three signed axes, right-handed.
     RecordingError
         When the file is no such export.
     OSError
         When it cannot be read.
     """
-    return _read(path, axes.parse(orientation), 0.0)[0]
+    return _read(path, np.array(axes_matrix(axes)), 0.0)[0]
 
 
 def _both(left: dict[str, str], right: dict[str, str], key: str) -> str:

@@ -15,9 +15,9 @@ from rich.console import Console
 from dualfoot_ros.evaluation import Align, EvaluationError, Options, demo_report, evaluate
 from dualfoot_ros.evaluation.notes import marker_notes, refusal_notes
 from dualfoot_ros.evaluation.plain import plain
-from dualfoot_ros.evaluation.reports.output import staged
+from dualfoot_ros.evaluation.reports.output import report_folder
 from dualfoot_ros.evaluation.reports.plots import draw_all, tracks
-from dualfoot_ros.evaluation.reports.plots.error_curves import _standing
+from dualfoot_ros.evaluation.reports.plots.error_curves import _in_stance
 from dualfoot_ros.evaluation.reports.tum import write_tracks
 from dualfoot_ros.evaluation.reports.walk_table import walk_table
 from dualfoot_ros.recording.recording import Recording
@@ -139,7 +139,7 @@ def test_a_report_that_fails_half_way_leaves_the_folder_as_it_was(tmp_path):
     target = tmp_path / "report"
     target.mkdir()
     (target / "metrics.json").write_text("old")
-    with pytest.raises(RuntimeError), staged(target) as folder:
+    with pytest.raises(RuntimeError), report_folder(target) as folder:
         (folder / "metrics.json").write_text("new")
         raise RuntimeError
     assert (target / "metrics.json").read_text() == "old"
@@ -149,7 +149,7 @@ def test_a_report_that_fails_half_way_leaves_the_folder_as_it_was(tmp_path):
 def test_a_new_report_replaces_the_old_one_and_nothing_else_in_the_folder(tmp_path):
     (tmp_path / "notes.txt").write_text("mine")
     (tmp_path / "errors.png").write_text("old")
-    with staged(tmp_path) as folder:
+    with report_folder(tmp_path) as folder:
         (folder / "metrics.json").write_text("new")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["metrics.json", "notes.txt"]
 
@@ -198,7 +198,7 @@ def test_feet_of_the_walk_made_by_formula_stand_where_they_are_said_to():
 
 def test_a_heading_error_in_the_swing_is_drawn_as_the_line_from_stance_to_stance():
     stance = np.array([False, True, True, False, False, True])
-    found = _standing(np.array([9.0, 1.0, 2.0, 70.0, -70.0, 5.0]), stance)
+    found = _in_stance(np.array([9.0, 1.0, 2.0, 70.0, -70.0, 5.0]), stance)
     assert found.tolist() == [1.0, 1.0, 2.0, 3.0, 4.0, 5.0]
     never = np.array([1.0, 2.0])
-    assert _standing(never, np.zeros(2, dtype=bool)).tolist() == never.tolist()
+    assert _in_stance(never, np.zeros(2, dtype=bool)).tolist() == never.tolist()

@@ -302,7 +302,7 @@ def test_every_real_walk_imports_with_both_feet_standing_at_the_start(dual_feet)
     assert walks
     for path in walks:
         found = import_recording(ImportOptions((path,)))
-        objections = {finding.name for finding in findings_of(found)}
+        objections = {finding.kind for finding in findings_of(found)}
         assert objections == ({"no_overlap"} if "unsynchronised" in str(path) else set()), path
         assert found.reference.closed_loop
         norm = np.linalg.norm(found.right.magnetic_field, axis=1).mean()

@@ -9,9 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from dualfoot_ros.core import DualFootTracker, ImuSeries, TrackerConfig
+from dualfoot_ros.core import DualFootTracker, ImuSeries, TrackerConfig, swing_passings
 from dualfoot_ros.core.results.events import EventKind
-from dualfoot_ros.evaluation.metrics.foot_passings import passings
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 from dualfoot_ros.simulation import ClockConfig, WalkConfig, simulate
 from dualfoot_ros.timing import Offset, TimingError, align, offset_by_motion
@@ -201,7 +200,7 @@ def test_unsynchronised_real_walks_become_sensible_dual_foot_tracks(dual_feet, n
     turns = [len(list(run)) for _, run in groupby(foot for _, foot in starts[2:])]
     assert len(turns) >= 38
     assert sum(n > 1 for n in turns) <= 2  # at a stop a foot may come to rest twice
-    passed = passings(
+    passed = swing_passings(
         track.left.position, track.right.position, track.left.stance, track.right.stance
     )
     at_least = [e.detail["distance"] for e in track.events if e.kind is EventKind.CONSTRAINT]

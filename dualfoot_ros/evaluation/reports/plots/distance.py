@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ....core import swing_passings
 from ...evaluate import Evaluation, constraint_epochs
 from ...frames.association import seconds
-from ...metrics.foot_passings import passings
 from .style import GREEN, PINK, TRUTH, new_figure, save
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def _panel(axis: Axes, run: Evaluation) -> None:
     applied = constraint_epochs(run.trajectory)
     refused = constraint_epochs(run.trajectory, accepted=False)
     if len(applied) + len(refused) == 0:
-        passed = passings(left.position, right.position, left.stance, right.stance)
+        passed = swing_passings(left.position, right.position, left.stance, right.stance)
         axis.plot(time[passed.index], passed.distance_m, ".", color=GREEN, label="feet pass")
         return
     axis.plot(time[applied], apart[applied], "o", color=GREEN, ms=4, label="constraint applied")

@@ -30,7 +30,7 @@ def draw_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
             error = np.linalg.norm(track.position - truth.position, axis=1)
             axes[0, 0].plot(walked, error, style, color=FOOT[foot], lw=1.1, label=f"{name} {foot}")
             turn = heading_error(track.quaternion, truth.quaternion)
-            turns.append(_standing(turn, track.stance))
+            turns.append(_in_stance(turn, track.stance))
         _heading(axes[1, 0], walked, turns, style, name)
     axes[0, 0].set_ylim(bottom=0.0)
     axes[0, 0].set_ylabel("position error (m)")
@@ -43,7 +43,7 @@ def draw_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
     return save(figure, path)
 
 
-def _standing(values: FloatArray, stance: np.ndarray) -> FloatArray:
+def _in_stance(values: FloatArray, stance: np.ndarray) -> FloatArray:
     """Return ``values`` (N,) as they were in stance, joined by straight lines.
 
     In the swing a foot turns fast, and the least difference of time makes spikes.

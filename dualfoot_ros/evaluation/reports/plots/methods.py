@@ -1,4 +1,4 @@
-"""The figures of a comparison: all tracks from above, and what a sweep shows."""
+"""The figures of a comparison: all tracks from above, and figures over a swept parameter."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...batch.comparison import Entry
 from ..comparison_rows import by_case, over_bags
 from .style import FOOT, GREEN, MARKER, PINK, TRUTH, new_figure, save
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from ...batch import Entry
 
 WIDEST = 12.0  # inches
 
@@ -74,7 +75,7 @@ SWEPT = (
 
 
 def draw_sweep(rows: Sequence[dict[str, Any]], name: str, path: Path) -> Path:
-    """Draw what depends on a swept parameter, the median over the bags, a line a method."""
+    """Draw the figures over a swept parameter, the median over the bags, a line a method."""
     own = [row for row in rows if row["swept"] == name]
     shown = [item for item in SWEPT if any(row.get(item[0]) is not None for row in own)]
     figure, axes = new_figure(4.2 * len(shown), 3.4, columns=len(shown))

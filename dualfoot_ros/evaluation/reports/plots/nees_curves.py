@@ -1,15 +1,18 @@
-"""NEES along the walk with its band, and what every figure comes to."""
+"""NEES along the walk, with the band of a consistent filter."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...batch.monte_carlo import POINTS, Score
 from .style import FOOT, GREEN, new_figure, save
+
+if TYPE_CHECKING:
+    from ...batch import Score
 
 COLOURS = {"left": FOOT["left"], "right": FOOT["right"], "relative": GREEN}
 
@@ -23,11 +26,12 @@ def draw_consistency(scores: Sequence[Score], path: Path, title: str) -> Path:
     figure, axes = new_figure(3.8 * columns, 6.0, 2, columns, sharex=True, sharey=True)
     for axis in axes.flat[len(panels) :]:
         axis.set_axis_off()
-    along = np.linspace(0.0, 100.0, POINTS)
     for axis, (kind, own) in zip(axes.flat, panels.items(), strict=False):
         for score in own:
             whose = score.name.partition(" ")[0]
-            axis.plot(along, score.curve, color=COLOURS[whose], linewidth=1.1, label=whose)
+            curve = np.asarray(score.curve)
+            along = np.linspace(0.0, 100.0, len(curve))
+            axis.plot(along, curve, color=COLOURS[whose], linewidth=1.1, label=whose)
         low, high = own[0].curve_band or (1.0, 1.0)
         axis.axhspan(low, high, color="#E8E8E8", zorder=0, label="95 % band")
         axis.axhline(1.0, color="black", linewidth=0.6)

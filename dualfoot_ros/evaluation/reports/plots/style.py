@@ -1,4 +1,4 @@
-"""How all figures look: colours that colour-blind readers can tell apart, sizes, file type."""
+"""The style of all figures: colours that colour-blind readers distinguish, sizes, file type."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **k
 
 
 def tidy(axis: Axes) -> None:
-    """Take away what is no data."""
+    """Remove the frame on two sides and lay a thin grid behind the data."""
     axis.spines[["top", "right"]].set_visible(False)
     axis.grid(visible=True, color="#E4E4E4", linewidth=0.6)
     axis.set_axisbelow(True)

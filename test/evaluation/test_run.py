@@ -1,0 +1,137 @@
+"""The pipeline as a user of Python calls it: a recording in, an evaluation out."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from dualfoot_ros.calibration import SensorCalibration, Triad
+from dualfoot_ros.cli.main import main
+from dualfoot_ros.core import ConfigError, TrackerConfig
+from dualfoot_ros.evaluation import Align, Options, RunOptions, run
+from dualfoot_ros.inspection import FindingKind
+from dualfoot_ros.recording import Recording, RecordingError, Reference, read_bag, write_bag
+from dualfoot_ros.simulation import WalkConfig, simulate
+
+
+@pytest.fixture(scope="module")
+def walked() -> Recording:
+    """Return a simulated walk with turns and with truth."""
+    made = simulate(WalkConfig(route="rectangle", standing=4.0), seed=4)
+    return Recording(made.left, made.right, made.left_truth, made.right_truth)
+
+
+@pytest.fixture(scope="module")
+def bag(walked, tmp_path_factory):
+    """Return the folder that holds the walk as the bag "walk"."""
+    folder = tmp_path_factory.mktemp("bags")
+    write_bag(folder / "walk", walked)
+    return folder
+
+
+def test_three_lines_give_an_evaluation(bag):
+    lines = """\
+from dualfoot_ros.evaluation import run
+from dualfoot_ros.recording import read_bag
+result = run(read_bag("walk"))
+"""
+    shown = "print(result.truth_report.midpoint.end_percent, len(result.tracked.left))"
+    done = subprocess.run(
+        [sys.executable, "-c", lines + shown], cwd=bag, capture_output=True, text=True, check=True
+    )
+    end_percent, epochs = map(float, done.stdout.split())
+    assert 0.0 < end_percent < 5.0
+    assert epochs > 2000
+    assert done.stderr == ""
+
+
+def test_its_figures_are_those_of_the_verb(bag, capsys):
+    assert main(["evaluate", str(bag / "walk"), "--method", "idc", "--json"]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    figures = run(read_bag(bag / "walk"), options=RunOptions(method="idc")).to_dict()
+    assert {name: printed[name] for name in figures} == figures
+
+
+@pytest.mark.parametrize("config", [None, "liu2023", TrackerConfig(gravity=9.81)])
+def test_method_and_parameters_of_the_options_win_over_any_configuration(walked, config):
+    options = RunOptions(method="zupt", parameters={"zupt": {"std": 0.03}}, check_feet=False)
+    result = run(walked, config, options)
+    by_hand = {"method": "zupt", "zupt.std": 0.03}
+    if isinstance(config, TrackerConfig):
+        by_hand["gravity"] = 9.81
+        expected = run(walked, TrackerConfig.from_mapping(by_hand))
+    else:
+        expected = run(walked, config, RunOptions(parameters=by_hand))
+    assert result.trajectory.method == "zupt"
+    assert np.array_equal(result.tracked.left.position, expected.tracked.left.position)
+
+
+def test_an_unknown_preset_or_parameter_is_refused_before_the_recording_is_looked_at():
+    with pytest.raises(ConfigError, match="unknown preset 'nix'"):
+        run(Recording(), "nix")
+    with pytest.raises(ConfigError, match=r"unknown parameter 'zupt\.sdt'"):
+        run(Recording(), options=RunOptions(parameters={"zupt.sdt": 1.0}))
+
+
+def test_a_recording_that_cannot_be_used_is_refused_with_its_finding(walked):
+    with pytest.raises(RecordingError, match="no samples of the right foot"):
+        run(replace(walked, right=None))
+
+
+def test_warnings_about_the_recording_are_findings_of_the_result(walked):
+    kept = np.r_[0:1500, 1530 : len(walked.left)]
+    result = run(replace(walked, left=walked.left[kept]), options=RunOptions(method="zupt"))
+    assert [finding.kind for finding in result.findings] == [FindingKind.GAPS]
+    assert run(walked, options=RunOptions(method="zupt")).findings == ()
+
+
+def test_exchanged_sensors_are_found_unless_nobody_asks(walked):
+    exchanged = Recording(walked.right, walked.left, walked.right_truth, walked.left_truth)
+    result = run(exchanged, options=RunOptions(method="zupt"))
+    assert [finding.kind for finding in result.findings] == [FindingKind.EXCHANGED_FEET]
+    assert result.notes[-1] == f"warning: {result.findings[0].sentence}"
+    assert run(exchanged, options=RunOptions(method="zupt", check_feet=False)).findings == ()
+
+
+def test_samples_that_are_not_finite_are_left_out_and_counted_where_that_is_allowed(walked):
+    rate = walked.left.angular_rate.copy()
+    rate[1500] = np.nan
+    broken = replace(walked, left=replace(walked.left, angular_rate=rate))
+    with pytest.raises(RecordingError, match=r"1 of .* samples are not finite"):
+        run(broken)
+    result = run(broken, options=RunOptions(method="zupt", allow_not_finite=True))
+    assert result.trajectory.counters["sync.left_not_finite"] == 1
+
+
+def test_a_calibration_is_applied_to_the_samples_of_its_foot(walked):
+    offset = np.array([0.0, 0.0, 0.02])
+    off = replace(walked.left, angular_rate=walked.left.angular_rate + offset)
+    bias = SensorCalibration(gyro=Triad(offset, np.eye(3)))
+    options = RunOptions(method="zupt", check_feet=False)
+    plain = run(walked, options=options)
+    corrected = run(
+        replace(walked, left=off), options=replace(options, calibration={"left": bias})
+    )
+    assert corrected.tracked.left.position == pytest.approx(plain.tracked.left.position, abs=1e-6)
+
+
+def test_alignment_and_reference_are_those_of_the_options(walked):
+    marks = Reference("a test", {"right": np.array([[0.0, 0.0, 0.0], [1.2, 0.0, 0.0]])})
+    options = RunOptions(method="zupt", alignment=Options(Align.UMEYAMA4), reference=marks)
+    result = run(walked, options=options)
+    assert result.options.align is Align.UMEYAMA4
+    assert result.marker_report["right"].markers == 2
+
+
+def test_the_tracks_before_alignment_and_the_time_it_took_are_kept(walked):
+    result = run(walked, options=RunOptions(method="zupt"))
+    middle = 0.5 * (result.tracked.left.position[0] + result.tracked.right.position[0])
+    assert np.linalg.norm(middle[:2]) < 0.01  # the tracker's own origin
+    assert result.run_s is not None and result.run_s > 0.0
+    moved = result.transforms["left"].position(result.tracked.left.position)
+    assert moved[-len(result.trajectory.left) :] == pytest.approx(
+        result.trajectory.left.position, abs=1e-9
+    )

@@ -1,0 +1,129 @@
+"""Sentences are for people: when all are reworded, nothing but the words changes."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from recording.samples import GRAVITY, moving
+
+from dualfoot_ros.cli.main import main
+from dualfoot_ros.core import ImuSeries, PressureSeries
+from dualfoot_ros.inspection import Finding, FindingKind, Severity
+from dualfoot_ros.recording import Recording, write_bag
+from dualfoot_ros.simulation import WalkConfig, simulate
+
+
+def scaled(series, force=1.0, rate=1.0):
+    return ImuSeries(series.stamp_ns, series.specific_force * force, series.angular_rate * rate)
+
+
+def with_nan(series):
+    series.angular_rate[700, 1] = np.nan
+    return series
+
+
+def held(series, first, last):
+    series.angular_rate[first] = [1.0, 2.0, 3.0]
+    series.specific_force[first:last] = series.specific_force[first]
+    series.angular_rate[first:last] = series.angular_rate[first]
+    return series
+
+
+def again(series):
+    stamps = np.concatenate([series.stamp_ns[:600], series.stamp_ns[:600]])
+    return replace(series, stamp_ns=stamps)
+
+
+def clipping(series):
+    series.specific_force[:, 0] = 4.0 * np.clip(series.specific_force[:, 0], -16.0, 8.0)
+    return series
+
+
+def with_field(series, tesla):
+    return replace(series, magnetic_field=np.full((len(series), 3), tesla))
+
+
+def air(series, pascal):
+    return {"both": PressureSeries(series.stamp_ns[::-1], np.full(len(series), pascal))}
+
+
+def exchanged():
+    made = simulate(WalkConfig(route="rectangle"), seed=1)
+    return Recording(made.right, made.left)
+
+
+RECORDINGS = {
+    "good": lambda: Recording(moving(1), moving(2)),
+    "one foot": lambda: Recording(moving(1)),
+    "empty": lambda: Recording(moving(1)[:1], moving(2)),
+    "nan": lambda: Recording(with_nan(moving(1)), moving(2)),
+    "two in one": lambda: Recording(again(moving(1)), moving(2)),
+    "g": lambda: Recording(scaled(moving(1), 1 / GRAVITY), moving(2)),
+    "no gravity": lambda: Recording(scaled(moving(1), 0.01), moving(2)),
+    "deg/s": lambda: Recording(moving(1), scaled(moving(2), rate=180 / np.pi)),
+    "apart": lambda: Recording(moving(1), moving(2, start_ns=10**18 + 10**11)),
+    "gaps": lambda: Recording(moving(1)[np.r_[0:600, 605, 605, 650:1200]], moving(2)[::2]),
+    "no standstill": lambda: Recording(moving(1, stand=0), moving(2)),
+    "stuck": lambda: Recording(held(moving(1), 700, 730), moving(2)),
+    "stuck for long": lambda: Recording(held(moving(1), 700, 900), moving(2)),
+    "clipping": lambda: Recording(clipping(moving(1)), moving(2)),
+    "hPa": lambda: Recording(moving(1), moving(2), pressure=air(moving(1), 1013.0)),
+    "uT": lambda: Recording(with_field(moving(1), 30.0), moving(2)),
+    "exchanged": exchanged,
+}
+
+
+@pytest.fixture(scope="module")
+def bags(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("bags")
+    return {name: write_bag(folder / name, make()) for name, make in RECORDINGS.items()}
+
+
+def outcomes(bags, capsys):
+    """Return kinds, severities, usability and exit codes of both verbs, and all sentences."""
+    decided, sentences = {}, []
+    for name, bag in bags.items():
+        code = main(["info", str(bag), "--json"])
+        facts = json.loads(capsys.readouterr().out)
+        kinds = [(found["name"], found["severity"]) for found in facts["findings"]]
+        evaluated = main(["evaluate", str(bag), "--method", "zupt", "--json"])
+        capsys.readouterr()
+        decided[name] = code, facts["usable"], kinds, sorted(facts["feet"]), evaluated
+        sentences += [found["sentence"] for found in facts["findings"]]
+    return decided, sentences
+
+
+def test_rewording_every_sentence_changes_nothing_that_is_decided(bags, capsys, monkeypatch):
+    decided, sentences = outcomes(bags, capsys)
+    make = Finding.__init__
+    reworded = "etwas ganz anderes"
+
+    def in_other_words(self, kind, severity, text, remedy=""):
+        make(self, kind, severity, reworded, "und was zu tun ist")
+
+    monkeypatch.setattr(Finding, "__init__", in_other_words)
+    again, others = outcomes(bags, capsys)
+    assert again == decided
+    assert len(set(sentences)) > 15
+    assert set(others) == {f"{reworded}; und was zu tun ist"}
+
+
+def test_these_recordings_show_all_but_a_few_kinds(bags, capsys):
+    decided, _ = outcomes({name: bag for name, bag in bags.items() if name != "exchanged"}, capsys)
+    seen = {kind for _, _, kinds, _, _ in decided.values() for kind, _ in kinds}
+    rare = {"late_standstill", "pressure_clock", "field_stamps", "swapped"}
+    assert seen | rare >= set(FindingKind)
+    severities = {severity for _, _, kinds, _, _ in decided.values() for _, severity in kinds}
+    assert severities == set(Severity)
+
+
+def test_a_finding_without_a_remedy_is_its_text():
+    finding = Finding(FindingKind.STAMPS, Severity.WARNING, "two stamps are left out")
+    assert finding.sentence == "two stamps are left out"
+    assert not finding.is_error
+    assert finding.to_dict() == {
+        "severity": "warning",
+        "name": "stamps",
+        "sentence": "two stamps are left out",
+    }

@@ -39,6 +39,7 @@ from .rotation import (
     turn_quaternions,
     yaw_quaternion,
 )
+from .samples.increments import Increments
 from .samples.mounting import (
     FORWARD_LEFT_UP,
     IDENTITY,
@@ -92,6 +93,7 @@ __all__ = [
     "FootTrajectory",
     "ImuPair",
     "ImuSeries",
+    "Increments",
     "IntArray",
     "Matrix",
     "MountingConfig",

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from .errors import ConfigError
 from .parameters import Parameters, parameter
+from .samples.increments import Increments
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,31 @@ class AlignmentConfig(Parameters):
     max_gravity_error: float = parameter(
         1.0, "mean specific force may differ from g by", unit="m/s^2", minimum=0.01, maximum=5.0
     )
+
+
+FROM_SOURCE = "from_source"
+KINDS = (FROM_SOURCE, *(kind.value for kind in Increments))
+
+
+@dataclass(frozen=True)
+class IncrementsConfig(Parameters):
+    """What the samples of each foot are; the source says so unless it is given here."""
+
+    left: str = parameter(
+        FROM_SOURCE,
+        "samples of the left foot; from_source: as its recording or driver says, else averaged",
+        choices=KINDS,
+    )
+    right: str = parameter(
+        FROM_SOURCE,
+        "samples of the right foot; from_source: as its recording or driver says, else averaged",
+        choices=KINDS,
+    )
+
+    def of(self, foot: str, source: Increments | None) -> Increments:
+        """Return what the samples of ``foot`` are; ``source`` is what their source says."""
+        given = self.left if foot == "left" else self.right
+        return (source or Increments.AVERAGED) if given == FROM_SOURCE else Increments(given)
 
 
 @dataclass(frozen=True)

@@ -11,20 +11,38 @@ from .alignment import FootStandstill
 from .config import TrackerConfig
 from .kernel import Workspace
 from .kernel import layout as lay
+from .results.events import FEET
 from .rotation import about_z
+from .samples.increments import Increments
 from .samples.series import FloatArray
 
+KINDS = {
+    Increments.COMPENSATED: lay.COMPENSATED,
+    Increments.AVERAGED: lay.AVERAGED,
+    Increments.SAMPLED: lay.SAMPLED,
+}
 LEVEL_NOISE = 1e-3  # m/s^2, the least by which gravity in the levelled frame is off
 
 
 class InitialState:
     """Fills a workspace from a configuration and a standstill."""
 
-    def __init__(self, config: TrackerConfig, space: Workspace) -> None:
-        """Write the constants of ``config`` to ``space``."""
+    def __init__(
+        self,
+        config: TrackerConfig,
+        space: Workspace,
+        sources: Sequence[Increments | None] = (None, None),
+    ) -> None:
+        """Write the constants of ``config`` to ``space``.
+
+        ``sources`` is what the sources of the left and the right foot say that their samples are.
+        """
         self._config, self._space = config, space
         self._up = [np.array([0.0, 0.0, 1.0])] * 2  # in body axes
         self._set_constants()
+        for foot, source in enumerate(sources):
+            kind = config.increments.of(FEET[foot], source)
+            space.w[lay.C_FOOT + foot * lay.C_STRIDE + lay.C_INCREMENTS] = KINDS[kind]
 
     def _set_constants(self) -> None:
         config, space = self._config, self._space

@@ -22,6 +22,7 @@ from .kernel import layout as lay
 from .results.events import FEET, Event, EventKind
 from .results.payloads import Levelled
 from .roll_back import RollBack
+from .samples.increments import Increments
 from .samples.series import FloatArray, IntArray
 
 Found = list[Event]
@@ -37,8 +38,12 @@ class Session:
         still: Standstill,
         rate_hz: float,
         aids: Sequence[Method] = (),
+        increments: Sequence[Increments | None] = (None, None),
     ) -> None:
-        """Level both feet from ``still``; ``aids`` are asked as the method is."""
+        """Level both feet from ``still``; ``aids`` are asked as the method is.
+
+        ``increments`` is what the sources of both feet say that their samples are.
+        """
         self._method: Method = METHODS[config.method](config.constraint)
         stance = config.stance
         memory = stance.min_stance + stance.min_swing + stance.window + 0.1
@@ -46,7 +51,7 @@ class Session:
         self._aids = aids
         self.rate_hz = rate_hz
         self.space = Workspace(rate_hz, memory)
-        self._initial = InitialState(config, self.space)
+        self._initial = InitialState(config, self.space, increments)
         self.phase = "standing"
         self.headings = Headings(config.heading, self.space, self._initial)
         self._config, self._still = config, still

@@ -20,6 +20,7 @@ from .results.payloads import Reason
 from .results.rows import to_trajectory, turn_rows
 from .results.trajectory import Trajectory
 from .results.update import Update
+from .samples.increments import Increments
 from .samples.pair_gate import MAX_GAP_NS, TIME_JUMPED, PairGate, next_irregular, regular_samples
 from .samples.series import (
     FieldSeries,
@@ -57,6 +58,7 @@ class DualFootTracker:
         self._engine = compiled() if engine == "compiled" else interpreted()
         self._pose: tuple[FloatArray, float] | None = None
         self._inputs = AidInputs(self.config.aids, self.counters)
+        self._increments: dict[str, Increments | None] = dict.fromkeys(FEET)
         self._begin()
 
     def _begin(self) -> None:
@@ -129,6 +131,13 @@ class DualFootTracker:
             return Update(stamp, "aligning", events=self._take_pending())
         return self._track(self._session, stamp, dt_ns, values)
 
+    def declare_increments(self, foot: str, kind: Increments | None) -> None:
+        """Take note what the samples of "left" or "right" are, as their source says.
+
+        It holds from the next alignment on; ``increments`` in the configuration wins over it.
+        """
+        self._increments[foot] = kind
+
     def add_pressure(self, worn: str, stamp_ns: int, pascal: float) -> str | None:
         """Take air pressure (Pa) of a sensor worn on "left" or "right", or on the body for "both".
 
@@ -181,8 +190,9 @@ class DualFootTracker:
         if first_pairs.still is not None:
             self.counters["alignment_restarts"] = first_pairs.still.restarts
         if still is not None:
+            kinds = [self._increments[foot] for foot in FEET]
             self._session = Session(
-                self.config, self._engine, still, first_pairs.rate_hz, self._aids
+                self.config, self._engine, still, first_pairs.rate_hz, self._aids, kinds
             )
             self._pending.append(self._session.aligned_event(stamp))
 
@@ -235,6 +245,9 @@ class DualFootTracker:
             When ``pressure`` or ``fields`` has another key.
         """
         values = stack_pairs(left, right)
+        for foot, imu in zip(FEET, (left, right), strict=True):
+            if imu.increments is not None:
+                self.declare_increments(foot, imu.increments)
         if self._background is not None:
             engine = self._background.wait()
             self._use(engine if engine is not None else self._engine)

@@ -6,7 +6,7 @@ ring of snapshots.  All offsets are compile-time constants but for the two rings
 """
 
 # --- state: what a snapshot copies -------------------------------------------------------------
-FOOT = 32  # stride from the left foot's nominal state to the right foot's
+FOOT = 40  # stride from the left foot's nominal state to the right foot's
 POS = 0  # position, m
 VEL = 3  # velocity, m/s
 ROT = 6  # R_nb, body to navigation, row-major 3x3
@@ -15,6 +15,8 @@ BA = 18  # accelerometer bias, m/s^2
 ALPHA = 21  # previous rotation increment, rad
 GAMMA = 24  # previous velocity increment, m/s
 RATE = 27  # last bias-corrected angular rate, rad/s
+FORCE = 30  # last bias-corrected specific force, m/s^2
+FOLLOWS = 33  # 1 when the sample before was the one before in time, 0 at the start and after a gap
 
 ROW = 16  # covariance blocks are 15 rows of 15, padded to 16
 BLOCK = 15 * ROW
@@ -52,6 +54,8 @@ C_STRIDE = 8
 C_LEVER = 0  # sensor to pivot of the foot, body frame, m
 C_STILL_RATE = 3  # standstill angular rate, rad/s
 C_STILL_NORM = 6  # standstill specific force norm, m/s^2
+C_INCREMENTS = 7  # what the samples are, one of:
+COMPENSATED, AVERAGED, SAMPLED = 0.0, 1.0, 2.0
 
 # --- scratch -------------------------------------------------------------------------------------
 S_A = C_FOOT + 2 * C_STRIDE  # a 15x16 block
@@ -68,12 +72,14 @@ S_CDT = S_DX + JOINT  # R_nb dt, 3x3
 S_SF = S_CDT + 9  # velocity increment in navigation axes, 3
 S_ROTATION = S_SF + 3  # a 3x3 rotation increment
 S_TMP = S_ROTATION + 9  # a 3x3
+S_ALPHA = S_TMP + 9  # rotation increment of the interval, rad
+S_GAMMA = S_ALPHA + 3  # velocity increment of the interval, m/s
 
 # --- what the last epoch was, for the output row ------------------------------------------------
 ZUPT_INFO = 13  # innovation 3, then:
 Z_S = 3  # S, 3x3
 Z_NIS = 12
-Z_LEFT = S_TMP + 9
+Z_LEFT = S_GAMMA + 3
 Z_RIGHT = Z_LEFT + ZUPT_INFO
 GLRT_LEFT = Z_RIGHT + ZUPT_INFO
 GLRT_RIGHT = GLRT_LEFT + 1

@@ -174,6 +174,20 @@ class ZuptConfig(Parameters):
         minimum=0.0,
         maximum=1.0,
     )
+    std_rate: float = parameter(
+        0.0,
+        "sampling rate for which std and rate_std hold: the variance of a sample grows with the "
+        "rate (0: the same at every rate, as in the papers)",
+        unit="Hz",
+        minimum=0.0,
+        maximum=5000.0,
+    )
+    heading: str = parameter(
+        "estimated",
+        "whether a zero-velocity update corrects heading and gyro bias, as in the papers, or takes "
+        "them as known and carries their uncertainty",
+        choices=("considered", "estimated"),
+    )
     still_std: float = parameter(
         0.002, "velocity noise standing still", unit="m/s", minimum=1e-5, maximum=1.0
     )

@@ -107,7 +107,11 @@ class JointEstimate:
         return self._space.w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
 
     def update(
-        self, rows: Sequence[Row], innovation: Sequence[float], variances: Sequence[float]
+        self,
+        rows: Sequence[Row],
+        innovation: Sequence[float],
+        variances: Sequence[float],
+        known: int = 0,
     ) -> tuple[FloatArray, float]:
         """Update with up to three scalar measurements; return (S, NIS).
 
@@ -124,6 +128,8 @@ class JointEstimate:
             w[lay.S_S + 4 * i] += variances[i]
             w[lay.S_Y + i] = innovation[i]
         s = w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
+        if known:
+            return s, float(self._engine.correct_with_known(w, m, known))
         return s, float(self._engine.correct(w, m))
 
     def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:

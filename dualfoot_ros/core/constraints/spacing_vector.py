@@ -21,6 +21,7 @@ from functools import partial
 import numpy as np
 
 from ..joint_estimate import JointEstimate, Outcome, relative_row
+from ..kernel.layout import attitude_row
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit, Passing
 from .learnt_spacing import Spacing
@@ -62,6 +63,7 @@ class SpacingVectorConfig(Parameters):
     max_stance: float = parameter(
         1.2, "a longer stance is no step", unit="s", minimum=0.2, maximum=3.0
     )
+    known: int = parameter(0, "x", minimum=0, maximum=3)
 
 
 class SpacingVector(Method):
@@ -123,7 +125,16 @@ class SpacingVector(Method):
             rows = [relative_row(left.tolist())]
             innovation = np.array([float(r @ left) - spacing])
         variances = [max(config.spacing_std**2, 1e-12)] * len(rows)
-        s, nis = estimate.update(rows, innovation.tolist(), variances)
+        if config.known:
+            for i, row in enumerate(rows):
+                d = (
+                    (math.cos(heading), math.sin(heading))[i]
+                    if config.variant == "vector"
+                    else 0.0
+                )
+                for foot in range(2):
+                    row[attitude_row(foot, 2)] = -0.5 * spacing * d
+        s, nis = estimate.update(rows, innovation.tolist(), variances, config.known)
         passing = Passing(
             DistanceLimit(float(np.sqrt((r**2).sum())), spacing),
             heading,

@@ -10,15 +10,25 @@ them, truth minus estimate, so they are fed back with the other sign.
 
 import math
 
+from .considered_update import (
+    apply_gain,
+    consider_all,
+    consider_common,
+    consider_mean,
+    considered_state,
+    considering_gain,
+)
 from .layout import (
     BA,
     BG,
     C_FOOT,
     C_LEVER,
     C_STRIDE,
+    C_ZUPT_CONSIDERS,
     C_ZUPT_RATE_VAR,
     C_ZUPT_STILL_VAR,
     C_ZUPT_VAR,
+    CONSIDERED_FOOT,
     E_ATT,
     E_BA,
     E_BG,
@@ -38,6 +48,7 @@ from .layout import (
     S_DX,
     S_G,
     S_H,
+    S_K,
     S_S,
     S_Y,
     SIDE,
@@ -119,6 +130,42 @@ def correct_standing(w, rows, foot):
                 o = S_G + other + j
                 cross = PLR + ROW * i + j if foot == 0 else PLR + ROW * j + i
                 w[cross] -= a0 * w[o] + a1 * w[o + JOINT] + a2 * w[o + 2 * JOINT]
+    feed_back(w)
+    return nis
+
+
+def correct_considering(w, rows, foot, still):
+    """Update with a gain that takes heading and gyro bias as known; return the NIS.
+
+    ``still`` leaves the position of the standing ``foot`` and all of the other foot alone as well.
+    """
+    nis = considering_gain(w, rows, consider_all(w, rows))
+    for k in range(rows):
+        for side in range(2):
+            for c in range(CONSIDERED_FOOT):
+                w[S_K + JOINT * k + SIDE * side + considered_state(c)] = 0.0
+        if still:
+            for j in range(SIDE):
+                w[S_K + JOINT * k + SIDE * (1 - foot) + j] = 0.0
+            for j in range(E_VEL):
+                w[S_K + JOINT * k + SIDE * foot + j] = 0.0
+    apply_gain(w, rows)
+    feed_back(w)
+    return nis
+
+
+def correct_with_known(w, rows, kind):
+    """Update as `correct` does, with heading and gyro bias as known to the gain; return the NIS.
+
+    ``kind`` 1 takes all of them as known, 2 only what the feet have in common.
+    """
+    if kind == 1:
+        nis = considering_gain(w, rows, consider_all(w, rows))
+    elif kind == 2:
+        nis = considering_gain(w, rows, consider_common(w, rows))
+    else:
+        nis = considering_gain(w, rows, consider_mean(w, rows))
+    apply_gain(w, rows)
     feed_back(w)
     return nis
 
@@ -263,7 +310,9 @@ def zupt(w, foot, still=False):
         w[info + i] = w[S_Y + i]
     for i in range(ROWS_MOST * ROWS_MOST):
         w[info + Z_S + i] = w[S_S + i]
-    if still:
+    if w[C_ZUPT_CONSIDERS] == 1.0:
+        w[info + Z_NIS] = correct_considering(w, 3, foot, still)
+    elif still:
         w[info + Z_NIS] = correct_standing(w, 3, foot)
     else:
         w[info + Z_NIS] = correct(w, 3)

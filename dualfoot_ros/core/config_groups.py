@@ -145,6 +145,11 @@ class StanceConfig(Parameters):
     """GLRT stance detector (Skog et al. 2010) and the clean-up of impossible phases."""
 
     window: float = parameter(0.05, "GLRT window W", unit="s", minimum=0.005, maximum=0.5)
+    detector: str = parameter(
+        "fixed",
+        "threshold as given (the papers' GLRT), or following the walk's own statistic",
+        choices=("adaptive", "fixed"),
+    )
     threshold: float = parameter(
         6000.0, "GLRT threshold gamma (dimensionless)", minimum=1.0, maximum=1e9
     )

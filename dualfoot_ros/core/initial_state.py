@@ -62,6 +62,13 @@ class InitialState:
         w[lay.C_GLRT_RATE] = 1.0 / stance.gyro_std**2
         w[lay.C_GLRT_THRESHOLD] = stance.threshold
         w[lay.C_WATCH] = math.inf
+        w[lay.C_ADAPTS] = 1.0 if stance.detector == "adaptive" else 0.0
+        w[lay.D_EDGES : lay.D_EDGES + lay.BINS] = 10.0 ** (0.05 * np.arange(20, 20 + lay.BINS))
+        for foot in range(2):
+            w[lay.D_FOOT + foot * lay.D_STRIDE + lay.D_THRESHOLD] = stance.threshold
+        n[lay.N_SHORT_STANCE] = max(1, round(0.05 * space.rate_hz))
+        n[lay.N_DECIMATE] = max(1, round(space.rate_hz / 60.0))
+        n[lay.N_WALKING] = round(2.0 * space.rate_hz)
         n[lay.N_WINDOW] = min(space.ring, max(2, round(stance.window * space.rate_hz)))
         n[lay.N_STILL] = max(1, round(config.zupt.still_after * space.rate_hz))
         n[lay.N_MIN_STANCE] = max(1, round(stance.min_stance * space.rate_hz))

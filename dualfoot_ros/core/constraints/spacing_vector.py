@@ -64,6 +64,8 @@ class SpacingVectorConfig(Parameters):
         1.2, "a longer stance is no step", unit="s", minimum=0.2, maximum=3.0
     )
     known: int = parameter(0, "x", minimum=0, maximum=3)
+    turn_std: float = parameter(0.0, "x", minimum=0.0, maximum=10.0)
+    along_std: float = parameter(0.0, "x", minimum=0.0, maximum=10.0)
 
 
 class SpacingVector(Method):
@@ -80,6 +82,7 @@ class SpacingVector(Method):
         self.config = config
         self.dimensions = 2 if config.variant == "vector" else 1
         self.spacing = Spacing(config.spacing)
+        self._heading = 0.0
         self.memory_s = config.max_stance
 
     def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
@@ -99,7 +102,9 @@ class SpacingVector(Method):
         if not gait.remembers(moment) or gait.in_stance(other, moment):
             return ()
         spacing = self.spacing.value_m
-        constrain = partial(self.apply, heading=stance.heading, spacing=spacing)
+        turned = math.remainder(stance.heading - self._heading, math.tau)
+        self._heading = stance.heading
+        constrain = partial(self.apply, heading=stance.heading, spacing=spacing, turned=turned)
         return (Request(moment, True, constrain),)
 
     def note(self, outcome: Outcome) -> None:
@@ -111,7 +116,7 @@ class SpacingVector(Method):
         self.spacing.moved()
 
     def apply(
-        self, estimate: JointEstimate, heading: float, spacing: float | None = None
+        self, estimate: JointEstimate, heading: float, spacing: float | None = None, turned: float = 0.0
     ) -> Outcome:
         """Project onto eq. (9), or onto its component across ``heading`` (rad)."""
         config = self.config
@@ -124,8 +129,17 @@ class SpacingVector(Method):
         else:
             rows = [relative_row(left.tolist())]
             innovation = np.array([float(r @ left) - spacing])
-        variances = [max(config.spacing_std**2, 1e-12)] * len(rows)
-        if config.known:
+        std = math.hypot(config.spacing_std, config.turn_std * turned)
+        variances = [max(std**2, 1e-12)] * len(rows)
+        if config.along_std > 0.0:
+            ahead = np.array([math.cos(heading), math.sin(heading), 0.0])
+            rows = [relative_row(ahead.tolist()), relative_row(left.tolist())]
+            innovation = np.array([float(r @ ahead), float(r @ left) - spacing])
+            variances = [config.along_std**2 + (std**2-config.spacing_std**2), std**2]
+            if config.known:
+                for foot in range(2):
+                    rows[0][attitude_row(foot, 2)] = -0.5 * spacing
+        if config.known and config.along_std == 0.0:
             for i, row in enumerate(rows):
                 d = (
                     (math.cos(heading), math.sin(heading))[i]

@@ -51,6 +51,7 @@ C_GLRT_RATE = C_GRAVITY + 9  # 1 / sigma_w^2
 C_GLRT_THRESHOLD = C_GRAVITY + 10
 C_WATCH = C_GRAVITY + 11  # squared distance of the feet beyond which a method wants to know, m^2
 C_ZUPT_STILL_VAR = C_GRAVITY + 12  # (m/s)^2, once a stance has lasted
+C_ADAPTS = C_GRAVITY + 14  # 1 when the threshold follows the walk
 C_ZUPT_CONSIDERS = C_GRAVITY + 13  # 1 when a zero-velocity update takes heading and bias as known
 C_FOOT = C_GRAVITY + 16  # then per foot:
 C_STRIDE = 8
@@ -60,8 +61,22 @@ C_STILL_NORM = 6  # standstill specific force norm, m/s^2
 C_INCREMENTS = 7  # what the samples are, one of:
 AVERAGED, COMPENSATED, SAMPLED = 0.0, 1.0, 2.0
 
+# --- the walk's own statistic, for the threshold of the detector; per foot --------------------------
+BINS = 128  # of the statistic, 20 a decade
+HISTORY = 256  # values kept, some four seconds
+D_FOOT = C_FOOT + 2 * C_STRIDE
+D_HISTOGRAM = 0  # count of values in each bin
+D_VALUES = BINS  # bin of each value, a ring
+D_COUNT = BINS + HISTORY  # values taken
+D_SKIP = D_COUNT + 1  # samples until the next value is taken
+D_ACTIVE = D_COUNT + 2  # samples for which the foot still counts as walking
+D_THRESHOLD = D_COUNT + 3  # threshold in use
+D_LEAST = D_COUNT + 4  # least statistic of the candidate stance
+D_STRIDE = D_COUNT + 8
+D_EDGES = D_FOOT + 2 * D_STRIDE  # upper edge of each bin
+
 # --- scratch -------------------------------------------------------------------------------------
-S_A = C_FOOT + 2 * C_STRIDE  # a 15x16 block
+S_A = D_EDGES + BINS  # a 15x16 block
 S_B = S_A + BLOCK  # another
 SIDE = ROW  # error state of one foot in a vector of both: 15 and one pad
 JOINT = 2 * SIDE  # error state of both feet, left then right
@@ -105,7 +120,10 @@ N_MIN_SWING = 4  # samples
 N_NOTICE = 5  # bits below, set by an epoch that needs the tracker's attention
 N_OLDEST = 6  # oldest epoch whose snapshot is valid
 N_STILL = 7  # samples after which a stance is a standstill
-N_FOOT = 8  # then per foot:
+N_SHORT_STANCE = 8  # samples of a short stance, if it is clear
+N_DECIMATE = 9  # samples to one value of the statistic's history
+N_WALKING = 10  # samples for which a foot counts as walking after a swing
+N_FOOT = 16  # then per foot:
 N_STRIDE = 8
 N_PHASE = 0  # one of the phases below
 N_START = 1  # first epoch of the (candidate) stance

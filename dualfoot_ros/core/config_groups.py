@@ -130,7 +130,7 @@ class InitialConfig(Parameters):
         0.03, "yaw against the first strides", unit="rad", minimum=0.0, maximum=3.2
     )
     gyro_bias: float = parameter(
-        1.0e-4, "gyro bias, the least of it", unit="rad/s", minimum=0.0, maximum=1.0
+        8.0e-4, "lower bound of the gyro bias", unit="rad/s", minimum=0.0, maximum=1.0
     )
     accelerometer_bias: float = parameter(
         0.1, "accelerometer bias", unit="m/s^2", minimum=0.0, maximum=5.0
@@ -146,12 +146,15 @@ class StanceConfig(Parameters):
 
     window: float = parameter(0.05, "GLRT window W", unit="s", minimum=0.005, maximum=0.5)
     detector: str = parameter(
-        "fixed",
-        "threshold as given (the papers' GLRT), or following the walk's own statistic",
+        "adaptive",
+        "threshold that follows the walk's own statistic, or fixed as in the papers",
         choices=("adaptive", "fixed"),
     )
     threshold: float = parameter(
-        6000.0, "GLRT threshold gamma (dimensionless)", minimum=1.0, maximum=1e9
+        6000.0,
+        "GLRT threshold gamma (dimensionless); adaptive: that of the first second",
+        minimum=1.0,
+        maximum=1e9,
     )
     gyro_std: float = parameter(
         1.4e-2, "angular rate noise in the GLRT", unit="rad/s", minimum=1e-6, maximum=1.0
@@ -171,27 +174,29 @@ class StanceConfig(Parameters):
 class ZuptConfig(Parameters):
     """Zero-velocity update, eq. (12), at the point about which the foot pivots."""
 
-    std: float = parameter(0.05, "velocity noise in stance", unit="m/s", minimum=1e-4, maximum=1.0)
+    std: float = parameter(
+        0.087, "velocity noise in stance", unit="m/s", minimum=1e-4, maximum=1.0
+    )
     rate_std: float = parameter(
-        0.05,
+        0.12,
         "velocity noise added per angular rate",
         unit="m/s per rad/s",
         minimum=0.0,
         maximum=1.0,
     )
     std_rate: float = parameter(
-        0.0,
+        60.0,
         "sampling rate for which std and rate_std hold: the variance of a sample grows with the "
         "rate (0: the same at every rate, as in the papers)",
         unit="Hz",
         minimum=0.0,
         maximum=5000.0,
     )
-    heading: str = parameter(
-        "estimated",
-        "whether a zero-velocity update corrects heading and gyro bias, as in the papers, or takes "
-        "them as known and carries their uncertainty",
-        choices=("considered", "estimated"),
+    heading_correction: str = parameter(
+        "none",
+        "what a zero-velocity update corrects of heading and gyro bias: all (full), as in the "
+        "papers, or nothing (none): they are taken as known, and their uncertainty is carried",
+        choices=("full", "none"),
     )
     still_std: float = parameter(
         0.002, "velocity noise standing still", unit="m/s", minimum=1e-5, maximum=1.0
@@ -200,14 +205,14 @@ class ZuptConfig(Parameters):
         1.5, "a stance this long is standing still", unit="s", minimum=0.2, maximum=1e6
     )
     lever_arm: float = parameter(
-        0.09,
+        0.10,
         "height of the sensor above the pivot of the foot (0: the papers' plain ZUPT)",
         unit="m",
         minimum=0.0,
         maximum=0.5,
     )
     lever_back: float = parameter(
-        0.08,
+        0.06,
         "how far the pivot is behind the sensor, along the foot",
         unit="m",
         minimum=-0.3,

@@ -23,6 +23,22 @@ Row = Mapping[int, float]
 ROUNDING = 1e-13  # relative size below which a variance is a rounding error
 
 
+class HeadingCorrection(StrEnum):
+    """What an update may correct of the headings and the gyro biases of the feet.
+
+    Attributes
+    ----------
+    FULL : all that the Kalman gain says, as in the papers
+    DIFFERENCE : the difference of the headings; what they have in common and the gyro biases are
+        taken as known, and their uncertainty is carried
+    NONE : nothing; all of them are taken as known, and their uncertainty is carried
+    """
+
+    FULL = "full"
+    DIFFERENCE = "difference"
+    NONE = "none"
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What came of a constraint: as in :class:`dualfoot_ros.core.Event`."""
@@ -111,13 +127,14 @@ class JointEstimate:
         rows: Sequence[Row],
         innovation: Sequence[float],
         variances: Sequence[float],
-        known: int = 0,
+        heading: HeadingCorrection = HeadingCorrection.FULL,
     ) -> tuple[FloatArray, float]:
         """Update with up to three scalar measurements; return (S, NIS).
 
         ``innovation`` is predicted minus measured (estimate minus truth, as the errors are) and
         ``variances`` the noise of each; zero makes an exact constraint.  A variance H P H' that is
         mere rounding counts as none: what an exact constraint has settled stays settled.
+        ``heading`` is what the update may correct of headings and gyro biases.
         """
         w = self._space.w
         self._collect(rows)
@@ -128,9 +145,10 @@ class JointEstimate:
             w[lay.S_S + 4 * i] += variances[i]
             w[lay.S_Y + i] = innovation[i]
         s = w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
-        if known:
-            return s, float(self._engine.correct_with_known(w, m, known))
-        return s, float(self._engine.correct(w, m))
+        if heading is HeadingCorrection.FULL:
+            return s, float(self._engine.correct(w, m))
+        common = heading is HeadingCorrection.DIFFERENCE
+        return s, float(self._engine.correct_considering(w, m, common))
 
     def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
         """Update with one measurement whose statistics are known; return the NIS.

@@ -51,4 +51,4 @@ class Idc(AtMinimumDistance):
             direction, push, noise = exact(r, p, c0, std)
         else:
             direction, push, noise = iterate(r, p, c0, std, self.config.iterations)
-        estimate.update([relative_row(direction)], [push], [noise], self.config.known)
+        estimate.update([relative_row(direction)], [push], [noise])

@@ -47,7 +47,6 @@ class MomentConfig(Parameters):
         "at the moment itself (roll back, apply, re-run) or when it is detected",
         choices=("moment", "detection"),
     )
-    known: int = parameter(0, "x", minimum=0, maximum=3)
     max_stance: float = parameter(
         1.2, "a longer stance is no step", unit="s", minimum=0.2, maximum=3.0
     )

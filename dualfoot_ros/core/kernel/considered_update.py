@@ -10,9 +10,9 @@ their covariance goes on being carried.  With G = P H', S = H G + R,
 
 which is Joseph's form for any gain K: P stays consistent whatever is left out of K.
 
-c is heading and gyro bias of both feet (`consider_all`), or only the part of them that the feet
-have in common (`consider_common`): with D = c_L - c_R and A = P_cL,D P_DD^-1, that is c_L - A D,
-which is uncorrelated with D.
+c is heading and gyro bias of both feet (`consider_all`), or the gyro biases and what the headings
+have in common (`consider_common`), so that a constraint between the feet may learn the difference
+of their headings and nothing else.  Neither depends on the covariance of the biases.
 """
 
 import math
@@ -85,56 +85,6 @@ def consider_all(w, rows):
 
 
 def consider_common(w, rows):
-    """Prepare the part of heading and gyro bias that the feet have in common; return how many."""
-    size = CONSIDERED_FOOT
-    # columns P_.cL and P_.D, the second in the place of those of the right foot
-    for k in range(size):
-        left = S_PC + JOINT * k
-        right = S_PC + JOINT * (size + k)
-        gather(w, 0, k, left)
-        gather(w, 1, k, right)
-        for j in range(JOINT):
-            w[right + j] = w[left + j] - w[right + j]
-    # P_DD, and A' = P_DD^-1 P_D,cL row by row
-    for k in range(size):
-        column = S_PC + JOINT * (size + k)
-        for m in range(size):
-            state = considered_state(m)
-            w[S_CC + CONSIDERED * k + m] = w[column + state] - w[column + SIDE + state]
-            w[S_D + size * k + m] = w[column + state]
-    factor_considered(w, size)
-    for m in range(size):
-        solve_considered(w, size, S_D + m, size)
-    # columns of c_L - A D, and G of it
-    for k in range(size):
-        left = S_PC + JOINT * k
-        for j in range(JOINT):
-            total = w[left + j]
-            for m in range(size):
-                total -= w[S_D + size * m + k] * w[S_PC + JOINT * (size + m) + j]
-            w[S_DX + j] = total
-        for j in range(JOINT):
-            w[left + j] = w[S_DX + j]
-    for k in range(size):
-        for i in range(rows):
-            g = S_G + JOINT * i
-            total = w[g + considered_state(k)]
-            for m in range(size):
-                state = considered_state(m)
-                total -= w[S_D + size * m + k] * (w[g + state] - w[g + SIDE + state])
-            w[S_GC + ROWS_MOST * k + i] = total
-    for k in range(size):
-        column = S_PC + JOINT * k
-        for m in range(size):
-            total = w[column + considered_state(m)]
-            for i in range(size):
-                state = considered_state(i)
-                total -= w[S_D + size * i + m] * (w[column + state] - w[column + SIDE + state])
-            w[S_CC + CONSIDERED * k + m] = total
-    return size
-
-
-def consider_mean(w, rows):
     """Prepare the gyro biases and the heading that the feet have in common; return how many.
 
     The headings given the biases have a covariance V of 2x2; what is uncorrelated with their
@@ -172,16 +122,14 @@ def consider_mean(w, rows):
         column = S_PC + JOINT * k
         for m in range(size):
             w[S_CC + CONSIDERED * k + m] = w[column + SIDE * (m // 3) + E_BG + m % 3]
-        w[S_CC + CONSIDERED * k + size] = (
-            (1.0 - a) * w[column + E_ATT + 2] + a * w[column + SIDE + E_ATT + 2]
-        )
+        w[S_CC + CONSIDERED * k + size] = (1.0 - a) * w[column + E_ATT + 2] + a * w[
+            column + SIDE + E_ATT + 2
+        ]
     for m in range(rows):
         g = S_G + JOINT * m
         for k in range(size):
             w[S_GC + ROWS_MOST * k + m] = w[g + SIDE * (k // 3) + E_BG + k % 3]
-        w[S_GC + ROWS_MOST * size + m] = (
-            (1.0 - a) * w[g + E_ATT + 2] + a * w[g + SIDE + E_ATT + 2]
-        )
+        w[S_GC + ROWS_MOST * size + m] = (1.0 - a) * w[g + E_ATT + 2] + a * w[g + SIDE + E_ATT + 2]
     return size + 1
 
 

@@ -22,7 +22,7 @@ ENTRIES = (
     "emit",
     "collect",
     "correct",
-    "correct_with_known",
+    "correct_considering",
     "turn",
 )
 
@@ -39,7 +39,7 @@ class Engine:
     emit: Callable[..., Any]
     collect: Callable[..., Any]
     correct: Callable[..., Any]
-    correct_with_known: Callable[..., Any]
+    correct_considering: Callable[..., Any]
     turn: Callable[..., Any]
 
 

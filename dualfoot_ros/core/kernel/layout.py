@@ -61,7 +61,7 @@ C_STILL_NORM = 6  # standstill specific force norm, m/s^2
 C_INCREMENTS = 7  # what the samples are, one of:
 AVERAGED, COMPENSATED, SAMPLED = 0.0, 1.0, 2.0
 
-# --- the walk's own statistic, for the threshold of the detector; per foot --------------------------
+# --- the walk's own statistic, for the threshold of the detector; per foot -----------------------
 BINS = 128  # of the statistic, 20 a decade
 HISTORY = 256  # values kept, some four seconds
 D_FOOT = C_FOOT + 2 * C_STRIDE

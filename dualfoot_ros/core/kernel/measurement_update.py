@@ -14,7 +14,6 @@ from .considered_update import (
     apply_gain,
     consider_all,
     consider_common,
-    consider_mean,
     considered_state,
     considering_gain,
 )
@@ -134,7 +133,7 @@ def correct_standing(w, rows, foot):
     return nis
 
 
-def correct_considering(w, rows, foot, still):
+def correct_stance(w, rows, foot, still):
     """Update with a gain that takes heading and gyro bias as known; return the NIS.
 
     ``still`` leaves the position of the standing ``foot`` and all of the other foot alone as well.
@@ -154,17 +153,15 @@ def correct_considering(w, rows, foot, still):
     return nis
 
 
-def correct_with_known(w, rows, kind):
-    """Update as `correct` does, with heading and gyro bias as known to the gain; return the NIS.
+def correct_considering(w, rows, common):
+    """Update as `correct` does, with gyro bias and heading as known to the gain; return the NIS.
 
-    ``kind`` 1 takes all of them as known, 2 only what the feet have in common.
+    With ``common`` only what the headings of the feet have in common is known.
     """
-    if kind == 1:
-        nis = considering_gain(w, rows, consider_all(w, rows))
-    elif kind == 2:
+    if common:
         nis = considering_gain(w, rows, consider_common(w, rows))
     else:
-        nis = considering_gain(w, rows, consider_mean(w, rows))
+        nis = considering_gain(w, rows, consider_all(w, rows))
     apply_gain(w, rows)
     feed_back(w)
     return nis
@@ -311,7 +308,7 @@ def zupt(w, foot, still=False):
     for i in range(ROWS_MOST * ROWS_MOST):
         w[info + Z_S + i] = w[S_S + i]
     if w[C_ZUPT_CONSIDERS] == 1.0:
-        w[info + Z_NIS] = correct_considering(w, 3, foot, still)
+        w[info + Z_NIS] = correct_stance(w, 3, foot, still)
     elif still:
         w[info + Z_NIS] = correct_standing(w, 3, foot)
     else:

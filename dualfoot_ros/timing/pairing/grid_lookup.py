@@ -61,6 +61,7 @@ class GridLookup:
             self._values(series.specific_force, good),
             self._values(series.angular_rate, good),
             None if field is None else self._values(field, good),
+            series.increments,
         )
 
     def _values(self, column: FloatArray, good: BoolArray) -> FloatArray:

@@ -11,13 +11,25 @@ from .samples.increments import Increments
 
 @dataclass(frozen=True)
 class AlignmentConfig(Parameters):
-    """Levelling and gyro bias from a standstill that is checked, not assumed."""
+    """Levelling and gyro bias from a standstill, weighed by its stillness; motion is refused."""
 
     duration: float = parameter(
-        2.0, "standstill needed before output starts", unit="s", minimum=0.5, maximum=60.0
+        2.0,
+        "quiet standstill of both feet after which output starts at once",
+        unit="s",
+        minimum=0.5,
+        maximum=60.0,
+    )
+    patience: float = parameter(
+        10.0,
+        "time after the first usable stand, or without one after the first sample, at which "
+        "output starts with what is there",
+        unit="s",
+        minimum=0.0,
+        maximum=600.0,
     )
     window: float = parameter(
-        0.75, "length of the window that is checked", unit="s", minimum=0.1, maximum=5.0
+        0.75, "length of the window that is weighed", unit="s", minimum=0.1, maximum=5.0
     )
     still_rate_std: float = parameter(
         1.0e-3,
@@ -26,15 +38,29 @@ class AlignmentConfig(Parameters):
         minimum=1e-6,
         maximum=1.0,
     )
+    quiet_rate_std: float = parameter(
+        0.03, "angular rate scatter of a quiet window", unit="rad/s", minimum=1e-5, maximum=1.0
+    )
+    quiet_force_std: float = parameter(
+        0.15, "specific force scatter of a quiet window", unit="m/s^2", minimum=1e-4, maximum=5.0
+    )
     max_rate_std: float = parameter(
-        0.03, "angular rate scatter of a still window", unit="rad/s", minimum=1e-5, maximum=1.0
+        0.12,
+        "angular rate scatter above which a window is motion",
+        unit="rad/s",
+        minimum=1e-5,
+        maximum=1.0,
     )
     max_force_std: float = parameter(
-        0.15, "specific force scatter of a still window", unit="m/s^2", minimum=1e-4, maximum=5.0
+        0.6,
+        "specific force scatter above which a window is motion",
+        unit="m/s^2",
+        minimum=1e-4,
+        maximum=5.0,
     )
     max_rate: float = parameter(
         0.15,
-        "mean angular rate (a bias) of a still window",
+        "mean angular rate (a bias) above which a window is motion",
         unit="rad/s",
         minimum=0.0,
         maximum=1.0,

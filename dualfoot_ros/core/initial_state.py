@@ -22,6 +22,7 @@ KINDS = {
     Increments.SAMPLED: lay.SAMPLED,
 }
 LEVEL_NOISE = 1e-3  # m/s^2, the least by which gravity in the levelled frame is off
+MOVING_STD = 2.0  # m/s, velocity of a foot that may be swinging at the start
 
 
 class InitialState:
@@ -114,11 +115,12 @@ class InitialState:
 
     def _set_covariance(self, foot: int, still: FootStandstill, rotation: FloatArray) -> None:
         p0 = self._config.initial
-        stds = [p0.position] * 3 + [p0.velocity] * 3 + [p0.tilt, p0.tilt, p0.yaw]
-        stds += [max(p0.gyro_bias, still.rate_scatter)] * 3 + [p0.accelerometer_bias] * 3
+        velocity = MOVING_STD if still.moving else p0.velocity
+        stds = [p0.position] * 3 + [velocity] * 3 + [p0.tilt, p0.tilt, p0.yaw]
+        stds += [max(p0.gyro_bias, still.rate_std)] * 3 + [p0.accelerometer_bias] * 3
         rows = self._space.own_block(foot)
         np.fill_diagonal(rows, np.square(stds))
-        know_level(rows, rotation, self._config.gravity, max(LEVEL_NOISE, still.force_scatter))
+        know_level(rows, rotation, self._config.gravity, max(LEVEL_NOISE, still.force_std))
 
 
 def know_level(rows: FloatArray, rotation: FloatArray, gravity: float, std: float) -> None:

@@ -224,6 +224,14 @@ class ZuptConfig(Parameters):
         "papers, or nothing (none): they are taken as known, and their uncertainty is carried",
         choices=("full", "none"),
     )
+    bias_known: float = parameter(
+        7.0e-3,
+        "uncertainty of a gyro bias above which zero-velocity updates correct heading and bias "
+        "all the same: they tell a bias to about this",
+        unit="rad/s",
+        minimum=0.0,
+        maximum=10.0,
+    )
     still_std: float = parameter(
         0.002, "velocity noise standing still", unit="m/s", minimum=1e-5, maximum=1.0
     )

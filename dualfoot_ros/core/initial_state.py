@@ -58,6 +58,7 @@ class InitialState:
         w[lay.C_ZUPT_VAR] = config.zupt.std**2 * growth
         w[lay.C_ZUPT_CONSIDERS] = 1.0 if config.zupt.heading_correction == "none" else 0.0
         w[lay.C_ZUPT_STILL_VAR] = config.zupt.still_std**2
+        w[lay.C_BIAS_KNOWN_VAR] = config.zupt.bias_known**2
         w[lay.C_ZUPT_RATE_VAR] = config.zupt.rate_std**2 * growth
         w[lay.C_GLRT_FORCE] = 1.0 / stance.force_std**2
         w[lay.C_GLRT_RATE] = 1.0 / stance.gyro_std**2

@@ -18,7 +18,7 @@ LENGTH_S = 0.2  # of the window in which a foot counts as standing
 CALM_RATE_STD, CALM_FORCE_STD = 0.3, 1.0  # rad/s and m/s^2, scatter within it
 CALM_RATE, CALM_GRAVITY = 0.5, 1.0  # rad/s and m/s^2, of its means
 APART_S = 1.0  # from the stance of one foot to that of the other
-BIAS_STD = 0.03  # rad/s, of the gyro bias of a consumer sensor at turn-on
+BIAS_STD = 10.0  # rad/s: a stance tells nothing of the gyro bias
 TILT_STD = 0.5  # m/s^2, of the mean force of a foot that only just stands
 
 

@@ -82,7 +82,9 @@ class FootStand:
         self.count = 0
         self._weight = self._squares = 0.0
         self._mean, self._spread = np.zeros(6), np.zeros(6)
-        self._within = 0.0  # weighted variance of the windows' means by what happens within them
+        self._within = np.zeros(
+            2
+        )  # variance of the windows' means (rate, force) by what is in them
         self._newest: Window | None = None
 
     def add(self, window: Window) -> None:
@@ -95,7 +97,8 @@ class FootStand:
         step = window.mean - self._mean
         self._mean = self._mean + (weight / self._weight) * step
         self._spread = keep * self._spread + weight * step * (window.mean - self._mean)
-        self._within = keep * self._within + weight * window.mean_rate_std**2
+        within = np.array([window.mean_rate_std, window.mean_force_std])
+        self._within = keep * self._within + weight * within**2
         self._newest = window
         self.count += 1
 
@@ -116,11 +119,14 @@ class FootStand:
         windows = max(1.0, self._weight**2 / self._squares / SLIDES)
         variance = self._spread / self._weight
         between = float(variance[3:].max()) / max(1.0, windows - 1.0)
+        tilts = 0.5 * float(variance[:3].sum())  # two axes: along gravity next to nothing
         within = self._within / self._weight / windows
         trust = min(1.0, (windows - 1.0) / FEWEST)
-        rate_std = math.sqrt(trust * between + (1.0 - trust) * max(between, within))
-        tilts = 0.5 * float(variance[:3].sum())  # two axes: along gravity next to nothing
+        rate_std, force_std = (
+            math.sqrt(trust * b + (1.0 - trust) * max(b, float(w)))
+            for b, w in zip((between, tilts), within, strict=True)
+        )
         end_ns = self._newest.end_ns
         return FootStandstill(
-            self._mean[:3], self._mean[3:], rate_std, math.sqrt(tilts), self.seconds, end_ns
+            self._mean[:3], self._mean[3:], rate_std, force_std, self.seconds, end_ns
         )

@@ -13,6 +13,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
+import numpy as np
+
 from ..config import TrackerConfig
 from ..results.events import FEET
 from ..samples.series import FloatArray
@@ -23,6 +25,7 @@ from .sampling_rate import SamplingRate
 from .window import SLIDES, Window, WindowSlider
 
 SHORTEST_S = 0.5  # of a stand that is used
+UNKNOWN_BIAS = BiasPrior(np.zeros(3), 0.03)  # rad/s, of consumer sensors at turn-on
 Pair = tuple[int, FloatArray]
 Standstills = tuple[FootStandstill, FootStandstill]
 
@@ -205,9 +208,8 @@ class Alignment:
         """
         known = []
         for name, foot in zip(FEET, feet, strict=True):
-            prior = self._priors.get(name)
-            bias, std = foot.angular_rate, foot.rate_std
-            known.append(prior.combined(bias, std) if prior else (bias, std))
+            prior = self._priors.get(name, UNKNOWN_BIAS)
+            known.append(prior.combined(foot.angular_rate, foot.rate_std))
         largest = max(std for _, std in known)
         left, right = (f.with_bias(b, largest) for f, (b, _) in zip(feet, known, strict=True))
         return left, right

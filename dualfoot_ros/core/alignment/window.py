@@ -48,6 +48,12 @@ class Window:
         """Standard deviation of the mean angular rate by what happens within the window, rad/s."""
         return self.rate_std * math.sqrt(CORRELATION_S / max(self.seconds, CORRELATION_S))
 
+    @property
+    def mean_force_std(self) -> float:
+        """Standard deviation of the mean specific force across gravity, m/s^2, in the same way."""
+        across = math.sqrt(0.5 * float((self.std[:3] ** 2).sum()))
+        return across * math.sqrt(CORRELATION_S / max(self.seconds, CORRELATION_S))
+
     def motion(self, config: AlignmentConfig, gravity: float) -> str | None:
         """Return why this window is no standstill, or None."""
         excess = abs(math.hypot(*self.mean[:3].tolist()) - gravity)

@@ -51,6 +51,7 @@ C_GLRT_RATE = C_GRAVITY + 9  # 1 / sigma_w^2
 C_GLRT_THRESHOLD = C_GRAVITY + 10
 C_WATCH = C_GRAVITY + 11  # squared distance of the feet beyond which a method wants to know, m^2
 C_ZUPT_STILL_VAR = C_GRAVITY + 12  # (m/s)^2, once a stance has lasted
+C_BIAS_KNOWN_VAR = C_GRAVITY + 15  # (rad/s)^2, up to which a gyro bias counts as known
 C_ADAPTS = C_GRAVITY + 14  # 1 when the threshold follows the walk
 C_ZUPT_CONSIDERS = C_GRAVITY + 13  # 1 when a zero-velocity update takes heading and bias as known
 C_FOOT = C_GRAVITY + 16  # then per foot:

@@ -20,6 +20,7 @@ from .considered_update import (
 from .layout import (
     BA,
     BG,
+    C_BIAS_KNOWN_VAR,
     C_FOOT,
     C_LEVER,
     C_STRIDE,
@@ -28,6 +29,7 @@ from .layout import (
     C_ZUPT_STILL_VAR,
     C_ZUPT_VAR,
     CONSIDERED_FOOT,
+    DIAGONAL,
     E_ATT,
     E_BA,
     E_BG,
@@ -131,6 +133,15 @@ def correct_standing(w, rows, foot):
                 w[cross] -= a0 * w[o] + a1 * w[o + JOINT] + a2 * w[o + 2 * JOINT]
     feed_back(w)
     return nis
+
+
+def bias_known(w, foot):
+    """Return whether the gyro bias of ``foot`` is known better than a stance could tell it."""
+    block = PLL if foot == 0 else PRR
+    largest = 0.0
+    for i in range(3):
+        largest = max(largest, w[block + DIAGONAL * (E_BG + i)])
+    return largest <= w[C_BIAS_KNOWN_VAR]
 
 
 def correct_stance(w, rows, foot, still):
@@ -307,7 +318,7 @@ def zupt(w, foot, still=False):
         w[info + i] = w[S_Y + i]
     for i in range(ROWS_MOST * ROWS_MOST):
         w[info + Z_S + i] = w[S_S + i]
-    if w[C_ZUPT_CONSIDERS] == 1.0:
+    if w[C_ZUPT_CONSIDERS] == 1.0 and bias_known(w, foot):
         w[info + Z_NIS] = correct_stance(w, 3, foot, still)
     elif still:
         w[info + Z_NIS] = correct_standing(w, 3, foot)

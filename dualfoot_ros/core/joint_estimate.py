@@ -32,11 +32,20 @@ class HeadingCorrection(StrEnum):
     DIFFERENCE : the difference of the headings; what they have in common and the gyro biases are
         taken as known, and their uncertainty is carried
     NONE : nothing; all of them are taken as known, and their uncertainty is carried
+    BIAS : the gyro biases, but neither headings nor positions
     """
 
     FULL = "full"
     DIFFERENCE = "difference"
     NONE = "none"
+    BIAS = "bias"
+
+
+LEFT_ALONE = {
+    HeadingCorrection.DIFFERENCE: lay.KNOW_COMMON,
+    HeadingCorrection.NONE: lay.KNOW_ALL,
+    HeadingCorrection.BIAS: lay.KEEP_PLACE,
+}
 
 
 @dataclass(frozen=True)
@@ -82,6 +91,21 @@ class JointEstimate:
         """Return the velocity (3,) m/s of foot 0 or 1."""
         start = foot * lay.FOOT + lay.VEL
         return self._space.w[start : start + 3].copy()
+
+    def gyro_bias(self, foot: int) -> FloatArray:
+        """Return the gyro bias (3,) rad/s of foot 0 or 1."""
+        start = foot * lay.FOOT + lay.BG
+        return self._space.w[start : start + 3].copy()
+
+    def keep_gyro_bias_std(self, foot: int, least: float) -> None:
+        """Let no gyro bias of foot 0 or 1 be known better than to ``least`` rad/s.
+
+        What the model leaves out (scale factor, misalignment) acts like a bias while walking and
+        is not learnt while standing.
+        """
+        rows = self._space.own_block(foot)
+        for i in range(lay.E_BG, lay.E_BG + 3):
+            rows[i, i] = max(rows[i, i], least**2)
 
     def place(self, foot: int, position: FloatArray) -> None:
         """Put foot 0 or 1 at ``position`` (3,) m; nothing else changes."""
@@ -147,8 +171,7 @@ class JointEstimate:
         s = w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
         if heading is HeadingCorrection.FULL:
             return s, float(self._engine.correct(w, m))
-        common = heading is HeadingCorrection.DIFFERENCE
-        return s, float(self._engine.correct_considering(w, m, common))
+        return s, float(self._engine.correct_considering(w, m, LEFT_ALONE[heading]))
 
     def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
         """Update with one measurement whose statistics are known; return the NIS.

@@ -24,6 +24,7 @@ from .results.payloads import Levelled
 from .roll_back import RollBack
 from .samples.increments import Increments
 from .samples.series import FloatArray, IntArray
+from .standing import Stands
 
 Found = list[Event]
 
@@ -54,12 +55,14 @@ class Session:
         self.space = Workspace(start.rate_hz, memory)
         self._initial = InitialState(config, self.space, increments)
         self.phase = "standing"
+        self._standing_start = [not start.waiting] * 2
         self.headings = Headings(config.heading, self.space, self._initial)
         self._config, self._start, self._alignment = config, start, alignment
         self._feet = start.feet
         self._origin = np.zeros(3)
         self._gait = GaitHistory(self.space)
         self._roll_back = RollBack(self.space)
+        self._stands = Stands(config, self.space)
         self._dt, self._values = np.empty(1), np.empty((1, 12))
         self._row = np.zeros((1, lay.OUT))
         self.use(engine)
@@ -174,6 +177,8 @@ class Session:
         self._roll_back.clean_phases(bits)
         found: Found = []
         for foot in range(2):
+            if notices & (lay.NOTICE_STOOD << foot):
+                self._stands.take(foot, self._gait.stamp(self.space.epoch))
             if bits[foot] & lay.STANCE_CONFIRMED:
                 found += self._stance_confirmed(foot)
             elif bits[foot] & lay.STANCE_ENDED:
@@ -215,10 +220,31 @@ class Session:
         found = [Event(EventKind.STANCE_END, self._gait.stamp(last, now), FEET[foot], now)]
         self.phase = "walking"
         self._gait.ended[foot] = last
+        found += self._learn_bias(foot, now)
         phase = self._phase(foot, last)
         for method in self._askable():
             found += self._constrain(FEET[foot], method, method.on_stance_end(phase, self._gait))
         return found
+
+    def _learn_bias(self, foot: int, now: int) -> Found:
+        """Learn the gyro bias from the stand that has ended, unless it was that of the start."""
+        if self._standing_start[foot] or not self._stands.stood(foot):
+            self._standing_start[foot] = False
+            self._stands.forget(foot)
+            return []
+        return [self._stood_event(foot, now, self._stands.learn(foot, self._estimate))]
+
+    def _stood_event(self, foot: int, now: int, outcome: Outcome) -> Event:
+        return Event(
+            EventKind.STOOD,
+            now,
+            FEET[foot],
+            now,
+            outcome.innovation,
+            outcome.S,
+            outcome.nis,
+            payload=outcome.payload,
+        )
 
     def _constrain(self, foot: str, method: Method, requests: Sequence[Request]) -> Found:
         """Apply what a method asked for, and tell it and the caller what came of it."""

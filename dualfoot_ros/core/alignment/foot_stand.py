@@ -72,9 +72,9 @@ class FootStand:
     Updated as in West 1979 (Communications of the ACM 22(9)), with weights that fade.
     """
 
-    def __init__(self, config: AlignmentConfig) -> None:
-        """Start empty."""
-        self._floor = config.still_rate_std
+    def __init__(self, config: AlignmentConfig, overlap: int = SLIDES) -> None:
+        """Start empty; of ``overlap`` windows one is independent."""
+        self._floor, self._overlap = config.still_rate_std, overlap
         self.clear()
 
     def clear(self) -> None:
@@ -89,7 +89,7 @@ class FootStand:
 
     def add(self, window: Window) -> None:
         """Take a window."""
-        keep = math.exp(-window.seconds / SLIDES / MEMORY_S)
+        keep = math.exp(-window.seconds / self._overlap / MEMORY_S)
         scatter = np.array([window.rate_std])
         weight = float(stillness(scatter, self._floor)[0])
         self._weight = keep * self._weight + weight
@@ -107,16 +107,16 @@ class FootStand:
         """Length of the stand, s."""
         if self._newest is None:
             return 0.0
-        return self._newest.seconds * (1.0 + (self.count - 1) / SLIDES)
+        return self._newest.seconds * (1.0 + (self.count - 1) / self._overlap)
 
     def result(self) -> FootStandstill:
-        """Return what the stand tells; windows overlap, so one in SLIDES is independent.
+        """Return what the stand tells; windows overlap, so not all are independent.
 
         The scatter of the windows' means says how far off their mean is; where there are few of
         them, what happens within the windows says it.
         """
         assert self._newest is not None
-        windows = max(1.0, self._weight**2 / self._squares / SLIDES)
+        windows = max(1.0, self._weight**2 / self._squares / self._overlap)
         variance = self._spread / self._weight
         between = float(variance[3:].max()) / max(1.0, windows - 1.0)
         tilts = 0.5 * float(variance[:3].sum())  # two axes: along gravity next to nothing

@@ -30,6 +30,7 @@ E_POS, E_VEL, E_ATT, E_BG, E_BA = 0, 3, 6, 9, 12
 ERRORS = 15  # error states of one foot
 CONSIDERED_FOOT = 4  # of them that a zero-velocity update takes as known: heading, gyro bias
 CONSIDERED = 2 * CONSIDERED_FOOT
+KNOW_ALL, KNOW_COMMON, KEEP_PLACE = 0, 1, 2  # what an update leaves alone
 ROWS_POS = ROW * E_POS  # from the start of a covariance block to the rows of each of them
 ROWS_VEL = ROW * E_VEL
 ROWS_ATT = ROW * E_ATT
@@ -76,8 +77,16 @@ D_LEAST = D_COUNT + 4  # least statistic of the candidate stance
 D_STRIDE = D_COUNT + 8
 D_EDGES = D_FOOT + 2 * D_STRIDE  # upper edge of each bin
 
+# --- samples of a standing foot, for its gyro bias; per foot -------------------------------------
+A_FOOT = D_EDGES + BINS
+A_SECONDS = 0  # length of the window so far
+A_COUNT = 1  # samples in it
+A_SUM = 2  # of the angular rate, 3
+A_SQUARES = 5  # 3
+A_STRIDE = 8
+
 # --- scratch -------------------------------------------------------------------------------------
-S_A = D_EDGES + BINS  # a 15x16 block
+S_A = A_FOOT + 2 * A_STRIDE  # a 15x16 block
 S_B = S_A + BLOCK  # another
 SIDE = ROW  # error state of one foot in a vector of both: 15 and one pad
 JOINT = 2 * SIDE  # error state of both feet, left then right
@@ -138,6 +147,8 @@ SWING, LANDING, STANCE, LEAVING = 0, 1, 2, 3
 STANCE_FALSE, STANCE_CONFIRMED, SWING_FALSE, STANCE_ENDED = 1, 2, 4, 8
 NOTICE_SHIFT = 4
 NOTICE_WATCH = 256  # the feet are farther apart than the method allows
+NOTICE_STOOD = 512  # a window of a standing left foot is complete; twice that for the right
+STOOD_S = 0.75  # length of that window
 
 # --- output row ----------------------------------------------------------------------------------
 O_FOOT = 54  # stride from left to right

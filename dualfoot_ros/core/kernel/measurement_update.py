@@ -37,6 +37,8 @@ from .layout import (
     E_VEL,
     FOOT,
     JOINT,
+    KNOW_ALL,
+    KNOW_COMMON,
     PLL,
     PLR,
     POS,
@@ -164,15 +166,23 @@ def correct_stance(w, rows, foot, still):
     return nis
 
 
-def correct_considering(w, rows, common):
-    """Update as `correct` does, with gyro bias and heading as known to the gain; return the NIS.
+def correct_considering(w, rows, kind):
+    """Update with a gain that leaves some states alone; return the NIS.
 
-    With ``common`` only what the headings of the feet have in common is known.
+    ``kind`` KNOW_ALL takes headings and gyro biases as known, KNOW_COMMON the biases and what the
+    headings have in common, KEEP_PLACE corrects neither position nor heading.
     """
-    if common:
+    if kind == KNOW_ALL:
+        nis = considering_gain(w, rows, consider_all(w, rows))
+    elif kind == KNOW_COMMON:
         nis = considering_gain(w, rows, consider_common(w, rows))
     else:
-        nis = considering_gain(w, rows, consider_all(w, rows))
+        nis = considering_gain(w, rows, 0)
+        for k in range(rows):
+            for side in range(2):
+                w[S_K + JOINT * k + SIDE * side + E_ATT + 2] = 0.0
+                for j in range(3):
+                    w[S_K + JOINT * k + SIDE * side + E_POS + j] = 0.0
     apply_gain(w, rows)
     feed_back(w)
     return nis

@@ -75,6 +75,23 @@ class Levelled:
 
 
 @dataclass(frozen=True)
+class StandBias:
+    """The gyro bias (3,) rad/s that a stand of ``seconds`` s gave, and its deviation, rad/s."""
+
+    gyro_bias: list[float]
+    gyro_bias_std: float
+    seconds: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything by name."""
+        return {
+            "gyro_bias": self.gyro_bias,
+            "gyro_bias_std": self.gyro_bias_std,
+            "seconds": self.seconds,
+        }
+
+
+@dataclass(frozen=True)
 class YawTurn:
     """A turn of a track by ``yaw`` rad about the vertical through ``pivot`` m, then a ``shift``.
 

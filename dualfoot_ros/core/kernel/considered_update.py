@@ -10,9 +10,9 @@ their covariance goes on being carried.  With G = P H', S = H G + R,
 
 which is Joseph's form for any gain K: P stays consistent whatever is left out of K.
 
-c is heading and gyro bias of both feet (`consider_all`), or the gyro biases and what the headings
-have in common (`consider_common`), so that a constraint between the feet may learn the difference
-of their headings and nothing else.  Neither depends on the covariance of the biases.
+c is heading and gyro bias of both feet (`consider_all`), or the gyro biases and what the feet have
+in common of heading and position (`consider_common`), so that a constraint between the feet
+corrects the one against the other and does not move the pair.
 """
 
 import math
@@ -20,8 +20,10 @@ import math
 from .layout import (
     CONSIDERED,
     CONSIDERED_FOOT,
+    DIAGONAL,
     E_ATT,
     E_BG,
+    E_POS,
     JOINT,
     PLL,
     PLR,
@@ -40,6 +42,7 @@ from .layout import (
     SIDE,
 )
 
+BIASES, COMMON = 6, 4  # gyro biases of both feet; heading and position, in common
 LEAST_PIVOT = 1e-18  # a variance below it is none: the state is known already
 
 
@@ -52,7 +55,11 @@ def considered_state(k):
 
 def gather(w, foot, k, column):
     """Write P times the k-th considered state of ``foot`` to ``column`` (JOINT)."""
-    state = considered_state(k)
+    gather_state(w, foot, considered_state(k), column)
+
+
+def gather_state(w, foot, state, column):
+    """Write P times an error state of ``foot`` to ``column`` (JOINT)."""
     for j in range(15):
         if foot == 0:
             w[column + j] = w[PLL + ROW * state + j]
@@ -74,63 +81,58 @@ def consider_all(w, rows):
                 w[S_GC + ROWS_MOST * c + m] = w[
                     S_G + JOINT * m + SIDE * foot + considered_state(k)
                 ]
-    for c in range(CONSIDERED):
+    for c in range(2 * CONSIDERED_FOOT):
         for foot in range(2):
             for k in range(CONSIDERED_FOOT):
                 d = CONSIDERED_FOOT * foot + k
                 w[S_CC + CONSIDERED * c + d] = w[
                     S_PC + JOINT * c + SIDE * foot + considered_state(k)
                 ]
-    return CONSIDERED
+    return 2 * CONSIDERED_FOOT
 
 
 def consider_common(w, rows):
-    """Prepare the gyro biases and the heading that the feet have in common; return how many.
+    """Prepare the gyro biases and what the feet have in common; return how many.
 
-    The headings given the biases have a covariance V of 2x2; what is uncorrelated with their
-    difference is (1 - a) phi_L + a phi_R, a = (V_LL - V_LR) / (V_LL + V_RR - 2 V_LR).
+    In common are heading and position: (1 - a) x_L + a x_R with a = V_L / (V_L + V_R), so that the
+    foot that is known better counts more, and the correction stays between the feet.
     """
-    size = 6
-    last = S_PC + JOINT * size
-    for k in range(size):
+    for k in range(BIASES):
         gather(w, k // 3, 1 + k % 3, S_PC + JOINT * k)
-    gather(w, 0, 0, last)
-    gather(w, 1, 0, last + JOINT)
+        for m in range(rows):
+            state = SIDE * (k // 3) + E_BG + k % 3
+            w[S_GC + ROWS_MOST * k + m] = w[S_G + JOINT * m + state]
+    for k in range(COMMON):
+        state = common_state(k)
+        ll = w[PLL + DIAGONAL * state]
+        rr = w[PRR + DIAGONAL * state]
+        a = ll / (ll + rr) if ll + rr > LEAST_PIVOT else 0.5
+        w[S_D + k] = a
+        column = S_PC + JOINT * (BIASES + k)
+        gather_state(w, 0, state, column)
+        gather_state(w, 1, state, S_K)
+        for j in range(JOINT):
+            w[column + j] = (1.0 - a) * w[column + j] + a * w[S_K + j]
+        for m in range(rows):
+            g = S_G + JOINT * m + state
+            w[S_GC + ROWS_MOST * (BIASES + k) + m] = (1.0 - a) * w[g] + a * w[g + SIDE]
+    size = BIASES + COMMON
     for k in range(size):
-        for m in range(size):
-            state = SIDE * (m // 3) + E_BG + m % 3
-            w[S_CC + CONSIDERED * k + m] = w[S_PC + JOINT * k + state]
-        for side in range(2):
-            w[S_D + 2 * k + side] = w[last + JOINT * side + SIDE * (k // 3) + E_BG + k % 3]
-    for k in range(2 * size):
-        w[S_GC + k] = w[S_D + k]
-    factor_considered(w, size)
-    solve_considered(w, size, S_D, 2)
-    solve_considered(w, size, S_D + 1, 2)
-    ll = w[last + E_ATT + 2]
-    lr = w[last + SIDE + E_ATT + 2]
-    rr = w[last + JOINT + SIDE + E_ATT + 2]
-    for k in range(size):
-        ll -= w[S_GC + 2 * k] * w[S_D + 2 * k]
-        lr -= w[S_GC + 2 * k] * w[S_D + 2 * k + 1]
-        rr -= w[S_GC + 2 * k + 1] * w[S_D + 2 * k + 1]
-    apart = ll + rr - 2.0 * lr
-    a = (ll - lr) / apart if apart > LEAST_PIVOT else 0.5
-    for j in range(JOINT):
-        w[last + j] = (1.0 - a) * w[last + j] + a * w[last + JOINT + j]
-    for k in range(size + 1):
         column = S_PC + JOINT * k
-        for m in range(size):
+        for m in range(BIASES):
             w[S_CC + CONSIDERED * k + m] = w[column + SIDE * (m // 3) + E_BG + m % 3]
-        w[S_CC + CONSIDERED * k + size] = (1.0 - a) * w[column + E_ATT + 2] + a * w[
-            column + SIDE + E_ATT + 2
-        ]
-    for m in range(rows):
-        g = S_G + JOINT * m
-        for k in range(size):
-            w[S_GC + ROWS_MOST * k + m] = w[g + SIDE * (k // 3) + E_BG + k % 3]
-        w[S_GC + ROWS_MOST * size + m] = (1.0 - a) * w[g + E_ATT + 2] + a * w[g + SIDE + E_ATT + 2]
-    return size + 1
+        for m in range(COMMON):
+            a = w[S_D + m]
+            x = column + common_state(m)
+            w[S_CC + CONSIDERED * k + BIASES + m] = (1.0 - a) * w[x] + a * w[x + SIDE]
+    return size
+
+
+def common_state(k):
+    """Return the k-th error state that `consider_common` takes of both feet together."""
+    if k == 0:
+        return E_ATT + 2
+    return E_POS + k - 1
 
 
 def factor_considered(w, size):

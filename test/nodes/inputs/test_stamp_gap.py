@@ -2,9 +2,10 @@
 
 import pytest
 
+from dualfoot_ros.inspection import FindingKind
 from dualfoot_ros.nodes.inputs import stamp_gap as module
 from dualfoot_ros.nodes.inputs.stamp_gap import StampGap
-from dualfoot_ros.nodes.ros.status import ERROR, OK, WARN, FindingKind, Status
+from dualfoot_ros.nodes.ros.status import ERROR, OK, WARN, Status
 from dualfoot_ros.timing import Aligner
 
 from ..samples import STANDING, STEP_NS, imu
@@ -51,7 +52,7 @@ def test_feet_that_never_pair_are_an_error_with_foot_difference_and_remedy(feet,
     for remedy in ("stamping.left and stamping.right to device", "dualfoot sync"):
         assert remedy in status.message
     (finding,) = status.of_kind(FindingKind.STAMPS_APART)
-    assert finding.logged
+    assert finding.kind.logged_once
     found = status.values["right less left, newest stamps (s)"]
     assert found == pytest.approx(-sign * 162.5, abs=0.02)
 

@@ -1,13 +1,14 @@
-"""The finding that left and right sensor are exchanged, from the tracks of a walk."""
+"""Findings on the tracks of a walk: whether left and right sensor are exchanged."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 
-from ..core import Trajectory, stance_passings
-from .finding import Finding, FindingKind, Severity
-from .lateral_spacing import side_by_side
+from ...core import Trajectory, stance_passings
+from ..lateral_spacing import side_by_side
+from .finding import Finding, Severity
+from .finding_kinds import FindingKind
 
 SIGMAS = 3.0
 LEAST_PASSINGS = 8

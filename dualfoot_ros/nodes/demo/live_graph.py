@@ -18,17 +18,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from ...core import (
-    FEET,
-    DualFootError,
-    DualFootTracker,
-    ImuSeries,
-    PressureSeries,
-    TrackerConfig,
-    Trajectory,
-    fields_of,
-)
-from ...timing import align
+from ...core import FEET, DualFootError, TrackerConfig, Trajectory
 from ..fusion import FusionNode
 from ..inputs.field_topics import TOPICS as MAGNETIC
 from ..inputs.pressure_topics import TOPICS
@@ -183,17 +173,6 @@ def run_live(
         return {name: graph.result(name) for name in configs}
     finally:
         graph.close()
-
-
-def run_offline(
-    series: Mapping[str, ImuSeries],
-    config: TrackerConfig,
-    pressure: Mapping[str, PressureSeries] | None = None,
-) -> Trajectory:
-    """Return the batch run of the same samples."""
-    pair = series["left"], series["right"]
-    left, right = align(*pair)
-    return DualFootTracker(config).run(left, right, pressure, fields_of(*pair))
 
 
 def same_bits(live: Trajectory, batch: Trajectory) -> bool:

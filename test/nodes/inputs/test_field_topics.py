@@ -12,7 +12,8 @@ from sensor_msgs.msg import Imu, MagneticField
 from dualfoot_ros.core import EventKind, TrackerConfig
 from dualfoot_ros.core.tracker import fields_of
 from dualfoot_ros.drivers import State
-from dualfoot_ros.nodes.demo.live_graph import run_live, run_offline, same_bits
+from dualfoot_ros.evaluation import track
+from dualfoot_ros.nodes.demo.live_graph import run_live, same_bits
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.playback.player import Sample
@@ -49,9 +50,8 @@ def test_a_walk_through_the_nodes_is_the_offline_run_to_the_bit(context, felt):
         for name, on in (("on", True), ("off", False))
     }
     live, recording = run_live(felt, configs, context), read_bag(felt)
-    series = {"left": recording.left, "right": recording.right}
     for name, config in configs.items():
-        batch = run_offline(series, config)
+        batch = track(recording, config)
         assert live[name].lost == 0
         assert same_bits(live[name].trajectory, batch)
         aids = live[name].trajectory.of_kind(EventKind.AID)

@@ -8,7 +8,8 @@ from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import FluidPressure
 
 from dualfoot_ros.core import EventKind, TrackerConfig
-from dualfoot_ros.nodes.demo.live_graph import run_live, run_offline, same_bits
+from dualfoot_ros.evaluation import track
+from dualfoot_ros.nodes.demo.live_graph import run_live, same_bits
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.replay import ReplayNode
 from dualfoot_ros.nodes.ros import qos
@@ -38,9 +39,8 @@ def test_a_climb_through_the_nodes_is_the_offline_run_to_the_bit(context, tmp_pa
         for name, on in (("on", True), ("off", False))
     }
     live, recording = run_live(bag, configs, context), read_bag(bag)
-    series = {"left": recording.left, "right": recording.right}
     for name, config in configs.items():
-        batch = run_offline(series, config, recording.pressure)
+        batch = track(recording, config)
         assert live[name].lost == 0
         assert same_bits(live[name].trajectory, batch)
         aids = live[name].trajectory.of_kind(EventKind.AID)

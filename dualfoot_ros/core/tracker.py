@@ -256,7 +256,9 @@ class DualFootTracker:
             "on the ground at the start, or change alignment.* if the sensors are noisier"
         )
 
-    def _run(self, stamps: IntArray, values: FloatArray) -> tuple[IntArray, FloatArray, list]:
+    def _run(
+        self, stamps: IntArray, values: FloatArray
+    ) -> tuple[IntArray, FloatArray, list[Event]]:
         """Feed everything; long regular stretches of walking go through the kernel at once."""
         count = len(stamps)
         out = np.zeros((count, lay.OUT))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import PressureSeries
+from ..core import FloatArray, PressureSeries
 from ..core.aids import RANGE_PA, pressure_height
 
 
@@ -68,8 +68,9 @@ def wearer_words(worn: str) -> str:
     return "the body" if worn == "both" else f"the {worn} foot"
 
 
-def _means(heights: np.ndarray, size: int) -> np.ndarray:
+def _means(heights: FloatArray, size: int) -> FloatArray:
     """Return the means of successive groups of ``size`` (at least one group)."""
     size = min(max(1, size), max(1, len(heights)))
     count = len(heights) // size
-    return heights[: count * size].reshape(count, size).mean(axis=1)
+    means: FloatArray = heights[: count * size].reshape(count, size).mean(axis=1)
+    return means

@@ -100,4 +100,5 @@ def _noise(config: BarometerConfig, count: int, rng: np.random.Generator) -> Flo
     keep = np.exp(-1.0 / (config.rate * config.drift_time))
     drive = np.sqrt(1.0 - keep * keep) * rng.standard_normal(count)
     drive[:1] /= np.sqrt(1.0 - keep * keep)
-    return white + config.drift * lfilter([1.0], [1.0, -keep], drive)
+    noise: FloatArray = white + config.drift * lfilter([1.0], [1.0, -keep], drive)
+    return noise

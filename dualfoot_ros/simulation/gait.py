@@ -86,7 +86,8 @@ def _template(name: str) -> PchipInterpolator:
 
 def shape(name: str, phase: FloatArray) -> FloatArray:
     """Return a template (pitch, roll, yaw, turn or lift) at ``phase`` (N,) in [0, 1]."""
-    return _template(name)(phase)
+    values: FloatArray = _template(name)(phase)
+    return values
 
 
 def advance(phase: FloatArray, skew: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -58,7 +58,8 @@ class Surroundings:
     def field(self, position: FloatArray) -> FloatArray:
         """Return the field (N, 3) uT at places (N, 3) m, navigation axes."""
         waves = np.cos(position @ self._waves.T + self._phases)
-        return self._earth + self._size * waves @ self._directions
+        field: FloatArray = self._earth + self._size * waves @ self._directions
+        return field
 
 
 def sense_field(
@@ -71,4 +72,5 @@ def sense_field(
     turned = Rotation.from_quat(truth.quaternion)
     field = turned.apply(surroundings.field(truth.position), inverse=True)
     field += config.hard_iron * rng.standard_normal(3)
-    return MICRO * (field + config.noise * rng.standard_normal(field.shape))
+    tesla: FloatArray = MICRO * (field + config.noise * rng.standard_normal(field.shape))
+    return tesla

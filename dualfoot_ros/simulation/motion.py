@@ -53,7 +53,8 @@ class ShoeMotion:
     def position(self, time_s: FloatArray, lever: FloatArray) -> FloatArray:
         """Return the (N, 3) position of the point at ``lever`` (3,) m in the shoe."""
         state = self.spline(time_s)
-        return state[:, :3] + rotation_zyx(*state[:, 3:].T) @ lever
+        position: FloatArray = state[:, :3] + rotation_zyx(*state[:, 3:].T) @ lever
+        return position
 
     def kinematics(
         self, time_s: FloatArray, lever: FloatArray, mounting: FloatArray
@@ -94,7 +95,8 @@ def body_rates(
 
 
 def _rotate(rotation: FloatArray, vector: FloatArray) -> FloatArray:
-    return np.einsum("nij,nj->ni", rotation, vector)
+    rotated: FloatArray = np.einsum("nij,nj->ni", rotation, vector)
+    return rotated
 
 
 class Walker:
@@ -169,7 +171,8 @@ class Walker:
     def _pitch(self) -> FloatArray:
         """Return the (N,) pitch of the stride itself in rad, zero while the foot is flat."""
         scatter = 1.0 + self.config.gait.shape_std * self.scatter[self.now, 2]
-        return gait.shape("pitch", self.q) * scatter * self.scale[self.now]
+        pitch: FloatArray = gait.shape("pitch", self.q) * scatter * self.scale[self.now]
+        return pitch
 
     def _angles(self, progress: FloatArray, pitch: FloatArray) -> FloatArray:
         """Return (N, 3) yaw, pitch, roll of the shoe in rad."""
@@ -196,7 +199,8 @@ class Walker:
         lift = gait.shape("lift", self.q) * self.config.gait.clearance
         lift = lift * (1.0 + 3.0 * self.config.gait.shape_std * self.scatter[self.now, 3])
         lift = lift + 0.08 * gait.shape("lift", self.q) * (np.abs(rise) > 0.05)
-        return floor[self.now] - rise * (1.0 - gait.climb(self.q, rise)) + lift
+        height: FloatArray = floor[self.now] - rise * (1.0 - gait.climb(self.q, rise)) + lift
+        return height
 
     def _ring(self) -> FloatArray:
         """Return (N, 3) m: the ringing after heel strike along, across and up."""

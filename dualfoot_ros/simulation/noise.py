@@ -14,18 +14,20 @@ def smooth_noise(time_s: FloatArray, spacing_s: float, rng: np.random.Generator)
     count = int(np.ceil((time_s[-1] - start) / spacing_s)) + 8
     knots = start + spacing_s * np.arange(count + 4)
     spline = BSpline(knots, rng.standard_normal((count, 3)), 3)
-    return spline(time_s) / np.sqrt(_BSPLINE_VARIANCE)
+    noise: FloatArray = spline(time_s) / np.sqrt(_BSPLINE_VARIANCE)
+    return noise
 
 
 def smooth_rate_noise(
     time_s: FloatArray, spacing_s: float, rng: np.random.Generator
 ) -> FloatArray:
     """Return (N, 3) smooth noise whose derivative has unit variance."""
-    return (
+    noise: FloatArray = (
         smooth_noise(time_s, spacing_s, rng)
         * spacing_s
         * np.sqrt(_BSPLINE_VARIANCE / _BSPLINE_RATE_VARIANCE)
     )
+    return noise
 
 
 # Mean variance of a cubic B-spline with white unit coefficients, and of its derivative per knot

@@ -245,7 +245,8 @@ def _noise_and_instability(
     keep = np.exp(-interval_s / config.instability_time)
     drive = np.sqrt(1.0 - keep * keep) * rng.standard_normal((count, 3))
     drive[:1] /= np.sqrt(1.0 - keep * keep)
-    return white + instability * lfilter([1.0], [1.0, -keep], drive, axis=0)
+    drifting: FloatArray = white + instability * lfilter([1.0], [1.0, -keep], drive, axis=0)
+    return drifting
 
 
 def _saturate_and_quantise(value: FloatArray, full_scale: float, resolution: float) -> FloatArray:

@@ -11,8 +11,8 @@ from binascii import crc_hqx
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import Parameters, Refusal
-from ..sample import Sample, Vector, scaled
+from ...core import Parameters, Refusal, Vector
+from ..sample import Sample, scaled
 from . import cobs
 from .decoder import PacketCounter, append_if_finite
 from .framing import DelimitedFramer

@@ -71,7 +71,7 @@ class Entry:
 
     def to_dict(self) -> dict[str, Any]:
         """Return all figures as plain values."""
-        return plain(
+        figures: dict[str, Any] = plain(
             {
                 "bag": self.bag,
                 "case": self.case.label,
@@ -82,6 +82,7 @@ class Entry:
                 "run_s": self.run_s,
             }
         )
+        return figures
 
 
 def compare_one(job: Job) -> Entry:

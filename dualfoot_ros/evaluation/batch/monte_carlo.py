@@ -162,7 +162,8 @@ def points(middles: IntArray, first: int) -> IntArray:
     """Return (POINTS,) middles of stances at equal steps from epoch ``first`` to the last."""
     later = middles[middles >= first]
     wanted = np.linspace(first, later[-1], POINTS)
-    return later[np.abs(later[:, None] - wanted).argmin(axis=0)]
+    chosen: IntArray = later[np.abs(later[:, None] - wanted).argmin(axis=0)]
+    return chosen
 
 
 def _nis(run: Trajectory) -> dict[str, FloatArray]:

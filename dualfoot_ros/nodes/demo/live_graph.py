@@ -75,7 +75,9 @@ class LiveGraph:
         values = {"bag": str(bag), "clock": False}
         self.replay = self._add(ReplayNode, values, "", gate=self._has_room)
 
-    def _add(self, kind: Callable[..., Any], values: dict, space: str, **options: Any) -> Any:
+    def _add(
+        self, kind: Callable[..., Any], values: dict[str, Any], space: str, **options: Any
+    ) -> Any:
         overrides = [Parameter(name, value=value) for name, value in values.items()]
         node = kind(
             context=self.context,

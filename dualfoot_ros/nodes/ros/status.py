@@ -10,9 +10,9 @@ from diagnostic_msgs.msg import DiagnosticStatus
 
 from ...inspection import Finding, FindingKind, Severity
 
-OK = DiagnosticStatus.OK
-WARN = DiagnosticStatus.WARN
-ERROR = DiagnosticStatus.ERROR
+OK: bytes = DiagnosticStatus.OK
+WARN: bytes = DiagnosticStatus.WARN
+ERROR: bytes = DiagnosticStatus.ERROR
 LEVELS = {Severity.WARNING: WARN, Severity.ERROR: ERROR}
 
 

@@ -144,7 +144,10 @@ def _coefficient(window: FloatArray, values: FloatArray) -> FloatArray:
     total = sums[count:] - sums[:-count]
     variance = squares[count:] - squares[:-count] - total**2 / count
     product = correlate(values, centred, mode="valid")
-    return product / np.sqrt(np.maximum(variance, 1e-9) * max(float(centred @ centred), 1e-9))
+    correlation: FloatArray = product / np.sqrt(
+        np.maximum(variance, 1e-9) * max(float(centred @ centred), 1e-9)
+    )
+    return correlation
 
 
 def _residual(part: Signal, left: ImuSeries, right: ImuSeries, lag_s: float) -> float:
@@ -161,4 +164,5 @@ def _sampled(series: ImuSeries, time_ns: np.ndarray) -> FloatArray:
     start = int(series.stamp_ns[0])
     at, known = (time_ns - start) * 1e-9, (series.stamp_ns - start) * 1e-9
     rates = [np.interp(at, known, series.angular_rate[:, k]) for k in range(3)]
-    return np.array(rates).T - np.mean(rates, axis=1)
+    centred: FloatArray = np.array(rates).T - np.mean(rates, axis=1)
+    return centred

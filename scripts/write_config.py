@@ -66,8 +66,8 @@ def files() -> dict[Path, str]:
 def tables() -> str:
     """Return a table of the tracker's parameters and one for each node."""
     parts = [table("Tracker (offline verbs, and the node `fusion`)", all_specs())]
-    for node in dict.fromkeys(SECTIONS.values()):
-        parts.append(table(f"Node `{node}`", node_specs(node)))
+    nodes = dict.fromkeys(SECTIONS.values())
+    parts += [table(f"Node `{node}`", node_specs(node)) for node in nodes]
     return "\n".join(parts)
 
 

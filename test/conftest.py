@@ -36,6 +36,7 @@ def dualfoot() -> Callable[..., subprocess.CompletedProcess[str]]:
         paths = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
         return subprocess.run(
             [sys.executable, "-m", "dualfoot_ros", *map(str, arguments)],
+            check=False,
             capture_output=True,
             text=True,
             cwd=cwd,

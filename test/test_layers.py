@@ -80,7 +80,7 @@ def at_import_time(node: ast.AST) -> Iterator[ast.AST]:
 
 def root(name: str) -> str:
     """Return the outermost package of ``name``."""
-    return name.split(".")[0]
+    return name.split(".", maxsplit=1)[0]
 
 
 def layer(path: Path) -> str:

@@ -19,6 +19,7 @@ from .samples.series import FloatArray
 MEMORY_S = 30.0  # what is older than that fades: biases drift
 SLIDES = 25  # steps in which a window moves on by its length
 FIRST = 20  # pairs from which the rate is taken
+UPRIGHT = 0.95  # cosine to the vertical, from which an axis has no heading
 RATES_HZ = (5.0, 5000.0)  # beyond these the stamps are wrong, and memory must stay bounded
 
 
@@ -42,7 +43,7 @@ class FootStandstill:
     def levelling(self) -> FloatArray:
         """Return R_nb (3, 3) with roll and pitch from gravity and the body x axis heading zero."""
         up = self.specific_force / math.sqrt(float(self.specific_force @ self.specific_force))
-        axis = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.95 else np.array([0.0, 0.0, -up[0]])
+        axis = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < UPRIGHT else np.array([0.0, 0.0, -up[0]])
         x = axis - up * float(axis @ up)
         x /= math.sqrt(float(x @ x))
         return np.array([x, np.cross(up, x), up])

@@ -21,6 +21,7 @@ from .walk_config import WalkConfig, rotation_zyx
 
 KNOT_S = 0.01
 MARGIN_S = 0.5
+LEAST_RISE_M = 0.05  # of a stair
 
 
 @dataclass(frozen=True)
@@ -198,7 +199,7 @@ class Walker:
         rise = (floor[self.now] - floor[self.before]) * (self.now > 0)
         lift = gait.shape("lift", self.q) * self.config.gait.clearance
         lift = lift * (1.0 + 3.0 * self.config.gait.shape_std * self.scatter[self.now, 3])
-        lift = lift + 0.08 * gait.shape("lift", self.q) * (np.abs(rise) > 0.05)
+        lift = lift + 0.08 * gait.shape("lift", self.q) * (np.abs(rise) > LEAST_RISE_M)
         height: FloatArray = floor[self.now] - rise * (1.0 - gait.climb(self.q, rise)) + lift
         return height
 

@@ -62,7 +62,7 @@ class PluggedDevice:
 
 def held():
     """Return how many descriptors and threads this process has."""
-    return len(os.listdir("/proc/self/fd")), threading.active_count()
+    return len(list(Path("/proc/self/fd").iterdir())), threading.active_count()
 
 
 def settle(expected, seconds=5.0):

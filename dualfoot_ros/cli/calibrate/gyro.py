@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import common as common
+from . import common
 
 if TYPE_CHECKING:
     from ...calibration import GyroFit

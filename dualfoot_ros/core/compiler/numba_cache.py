@@ -47,4 +47,4 @@ def keep_in(dispatcher: Any, directory: Path) -> None:
 
         _impl_class = Implementation
 
-    dispatcher._cache = Cache(dispatcher.py_func)
+    dispatcher._cache = Cache(dispatcher.py_func)  # noqa: SLF001  (numba has no other way)

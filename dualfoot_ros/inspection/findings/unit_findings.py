@@ -12,6 +12,7 @@ from .finding_kinds import FindingKind
 GRAVITY_ERROR = 1.5  # m/s^2, more than any accelerometer bias
 FASTEST_FOOT = 35.0  # rad/s (2000 deg/s); no foot turns faster for long
 FORCE_UNIT_SIZES = {"g": 1.0, "mg": 1e3}  # what a sensor at rest reads in them
+UNIT_TOLERANCE = 0.2  # of that
 NO_GRAVITY = 3.0  # m/s^2; a sensor that reads less has gravity taken out
 
 
@@ -30,7 +31,7 @@ def find_force_unit(foot: str, quality: Quality) -> Iterator[Finding]:
 def _describe_force(reading: str, gravity: float) -> tuple[str, str]:
     """Return text and remedy about a specific force that is not ``gravity``."""
     for unit, size in FORCE_UNIT_SIZES.items():
-        if abs(gravity / size - 1.0) < 0.2:
+        if abs(gravity / size - 1.0) < UNIT_TOLERANCE:
             return (
                 f"{reading}, so it is in {unit} and not in m/s^2",
                 f"convert the bag with 'dualfoot import BAG --force-unit {unit} -o NEW', and live "

@@ -39,6 +39,7 @@ class Device:
         config: InputConfig,
         take: Take,
         ended: Callable[[SourceError | None], None],
+        *,
         begin: Callable[[threading.Event], None] | None = None,
     ) -> None:
         """Put it together; :meth:`start` starts.

@@ -51,14 +51,14 @@ def test_every_source_that_is_shown_is_understood():
 
 
 def test_the_python_example_names_what_exists():
-    import dualfoot_ros.drivers as drivers
+    from dualfoot_ros import drivers
 
     (names,) = re.findall(r"from dualfoot_ros.drivers import (.*)", TEXT)
     assert all(hasattr(drivers, name.strip()) for name in names.split(","))
 
 
 def test_the_short_names_stand_for_the_same_classes():
-    import dualfoot_ros.drivers as drivers
+    from dualfoot_ros import drivers
 
     short = re.findall(r"`(\w+)` \(`(\w+)` for short\)", TEXT)
     assert len(short) == 2

@@ -1,4 +1,4 @@
-"""Write ``config/*.yaml`` and ``docs/parameters.md`` from the declarations: ``make config``."""
+"""Write ``config/*.yaml`` and ``docs/reference/parameters.md``: ``make config``."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def files() -> dict[Path, str]:
     return {
         CONFIG / "default.yaml": DEFAULT + parameter_file("/**", all_specs()),
         CONFIG / "nodes" / "bringup.yaml": NODES + "\n".join(sections),
-        ROOT / "docs" / "parameters.md": TABLES + tables(),
+        ROOT / "docs" / "reference" / "parameters.md": TABLES + tables(),
     }
 
 

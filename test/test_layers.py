@@ -10,12 +10,12 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parents[1] / "dualfoot_ros"
 MODULES = sorted(PACKAGE.rglob("*.py"))
 TOP = "modules at the top of the package"
-TABLE = PACKAGE.parent / "docs" / "architecture.md"
+TABLE = PACKAGE.parent / "docs" / "explanation" / "architecture.md"
 NODES = "nodes"
 
 
 def layers() -> dict[str, set[str]]:
-    """Return the rooms and what each may import, from the table in docs/architecture.md."""
+    """Return the rooms and what each may import, from the table in TABLE."""
     rows = re.findall(r"^\| `(\w+)/` \|.*\| (.*) \|$", TABLE.read_text(encoding="utf-8"), re.M)
     rooms = {room for room, _ in rows}
     found = {}

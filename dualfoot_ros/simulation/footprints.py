@@ -10,7 +10,7 @@ from ..core import FloatArray, SimulationError
 from .routes import Route
 from .walk_config import WalkConfig
 
-# Shares of the time from heel-off to flat foot, as seen on real walks (docs/simulation.md).
+# Shares of the time from heel-off to flat foot, as on real walks (docs/explanation/simulation.md).
 TOE_OFF = 0.27
 HEEL_STRIKE = 0.84
 # The foot counts as standing from the last of the sole's slap to the first of the heel's rise:

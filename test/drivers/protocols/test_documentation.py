@@ -1,4 +1,4 @@
-"""What docs/sensors.md says is what the package does."""
+"""What docs/reference/sensors.md says is what the package does."""
 
 import re
 from pathlib import Path
@@ -16,7 +16,8 @@ from dualfoot_ros.drivers import (
     parse_uri,
 )
 
-TEXT = (Path(__file__).parents[3] / "docs" / "sensors.md").read_text(encoding="utf-8")
+PAGE = Path(__file__).parents[3] / "docs" / "reference" / "sensors.md"
+TEXT = PAGE.read_text(encoding="utf-8")
 ROWS = [line for line in TEXT.splitlines() if line.startswith("| `")]
 
 

@@ -1,4 +1,4 @@
-/* Reference encoder of the dualfoot_ros frame; see docs/mcu_frame.md.  C99 and Arduino. */
+/* Reference encoder of the dualfoot_ros frame; see docs/reference/mcu_frame.md.  C99 and Arduino. */
 #ifndef DUALFOOT_FRAME_H
 #define DUALFOOT_FRAME_H
 

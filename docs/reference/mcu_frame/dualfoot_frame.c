@@ -1,4 +1,4 @@
-/* Reference encoder of the dualfoot_ros frame; see docs/mcu_frame.md.  C99 and Arduino. */
+/* Reference encoder of the dualfoot_ros frame; see docs/reference/mcu_frame.md.  C99 and Arduino. */
 #include "dualfoot_frame.h"
 
 #include <string.h>

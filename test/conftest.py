@@ -1,13 +1,14 @@
-"""What tests of several parts need: the real walks, where they are."""
+"""What tests of several parts need: the real walks, where they are; processes."""
 
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from processes import Session, environment
 
 # The same examples at every run, so that a change is judged by itself.  To look for new ones:
 # pytest --hypothesis-profile=explore
@@ -33,13 +34,26 @@ def dualfoot() -> Callable[..., subprocess.CompletedProcess[str]]:
     """Run the command of this checkout as a process and return what it printed."""
 
     def run(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-        paths = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
         return subprocess.run(
             [sys.executable, "-m", "dualfoot_ros", *map(str, arguments)],
             capture_output=True,
             text=True,
             cwd=cwd,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
+            env=environment(),
         )
 
     return run
+
+
+@pytest.fixture
+def session() -> Iterator[Callable[..., Session]]:
+    """Start Python processes that are to be interrupted; nothing of them outlives the test."""
+    started: list[Session] = []
+
+    def start(*arguments: object, **options) -> Session:
+        started.append(Session(*arguments, **options))
+        return started[-1]
+
+    yield start
+    for each in started:
+        each.close()

@@ -98,7 +98,7 @@ def compare_one(job: Job) -> Entry:
     _check_repeatable(job)
     topics = job.left_topic, job.right_topic
     recording = _read(job.bag, topics, job.allow_nan, job.repeat)
-    _warm_up()
+    warm_up()
     begin = time.process_time()
     trajectory = track(recording, job.case.config)
     run_s = time.process_time() - begin
@@ -144,8 +144,11 @@ def _read(
 
 
 @lru_cache(maxsize=1)
-def _warm_up() -> None:
-    """Load the compiled kernel, so that it does not count in anyone's run time."""
+def warm_up() -> None:
+    """Load or make the compiled kernel in this process.
+
+    So it does not count in anyone's run time, and no other process is started to make it.
+    """
     try:
         compiled()
     except ImportError:

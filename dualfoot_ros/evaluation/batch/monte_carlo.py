@@ -37,6 +37,7 @@ from ..frames.association import Footfalls
 from ..frames.gauge import Truth, overlap
 from ..frames.yaw_transform import YawTransform
 from ..metrics.nees import attitude_error, nees
+from .comparison import warm_up
 
 POINTS = 40
 CONFIDENCE = 0.95
@@ -83,6 +84,7 @@ def score_walk(job: WalkJob) -> WalkScores:
     barometer = BarometerConfig() if aids.barometer else None
     magnetometer = MagnetometerConfig() if aids.magnetic_heading else None
     made = simulate(job.walk, job.sensor, None, job.seed, barometer, magnetometer)
+    warm_up()
     run = DualFootTracker(job.config).run(made.left, made.right, made.pressure)
     nis = _nis(run)
     run, truth = overlap(run, (made.left_truth, made.right_truth))

@@ -43,7 +43,7 @@ ROS = {
     "tf2_msgs",
     "tf2_ros",
 }
-HEAVY = {"bleak", "matplotlib", "numba", "rosbags", "serial", *ROS}
+HEAVY = {"bleak", "matplotlib", "numba", "rosbags", "scipy", "serial", *ROS}
 CLOCK_OR_LOG = {"datetime", "logging", "time"}
 FILES = {"io", "os", "pathlib", "shutil", "socket", "subprocess", "tempfile"}
 COMPILER = {"engine.py", "__main__.py"}  # of core/kernel: where compiled code is kept

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ..core import FloatArray, Parameters, PoseSeries, parameter
 
@@ -68,6 +67,8 @@ def sense_field(
     rng: np.random.Generator,
 ) -> FloatArray:
     """Return what a magnetometer with the poses ``truth`` puts out (N, 3), T, sensor axes."""
+    from scipy.spatial.transform import Rotation
+
     turned = Rotation.from_quat(truth.quaternion)
     field = turned.apply(surroundings.field(truth.position), inverse=True)
     field += config.hard_iron * rng.standard_normal(3)

@@ -1,4 +1,4 @@
-"""What tests of several parts need: the real walks, where they are; processes."""
+"""What tests of several parts need: the real walks, processes, a clock of one's own."""
 
 import os
 import subprocess
@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from own_time import OwnTime, put_in_place
 from processes import Session, environment
 
 # The same examples at every run, so that a change is judged by itself.  To look for new ones:
@@ -43,6 +44,12 @@ def dualfoot() -> Callable[..., subprocess.CompletedProcess[str]]:
         )
 
     return run
+
+
+@pytest.fixture
+def clock(monkeypatch) -> OwnTime:
+    """Return the monotonic clock of the package: silence and patience pass when the test says."""
+    return put_in_place(monkeypatch)
 
 
 @pytest.fixture

@@ -201,9 +201,10 @@ def test_a_field_gets_the_stamp_its_sample_gets_and_none_before_that_is_known(be
     assert taken == [stamped + 7]
 
 
-def test_an_aid_without_a_field_is_said_for_each_foot(bench):
+def test_an_aid_without_a_field_is_said_for_each_foot(bench, clock):
     feet = Feet(bench, {**ON, "input.silence": 0.3}).connect()
     fields, quick = feet.fusion.fields.feet, InputOptions(silence=0.3)
+    clock.move_on(1.0)
     bench.until(lambda: all(each.complaint(quick) for each in fields.values()), "complaints")
     said = fields["right"].complaint(quick).message
     assert said.startswith("aids.magnetic_heading is on but there is no magnetic field of the r")
@@ -220,12 +221,15 @@ def test_without_the_aid_nobody_listens_to_the_field(bench):
 
 
 def test_bringup_records_the_field_that_fusion_uses(program, felt, tmp_path):
+    """No queue is shorter than the bag, so nothing is lost however slow the machine is."""
+    whole = read_bag(felt)
+    bag = write_bag(tmp_path / "short", Recording(whole.left[:1200], whole.right[:1200]))
     target = tmp_path / "result"
     running = program(
-        "bringup", "--ros-args", "-p", f"bag:={felt}", "-p", f"record:={target}",
+        "bringup", "--ros-args", "-p", f"bag:={bag}", "-p", f"record:={target}",
         "-p", "play.rate:=8.0", "-p", "engine:=compiled", "-p", "aids.magnetic_heading:=true",
+        "-p", "input.depth:=10000",
     )  # fmt: skip
     assert running.code() == 0, running.output
-    played, recorded = read_bag(felt).left.field, read_bag(target).left.field
-    assert len(recorded) > 0.5 * len(played)
-    assert set(map(tuple, recorded.tesla.tolist())) <= set(map(tuple, played.tesla.tolist()))
+    played, recorded = read_bag(bag).left.field, read_bag(target).left.field
+    np.testing.assert_array_equal(recorded.tesla, played.tesla)

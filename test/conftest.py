@@ -4,6 +4,8 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import chdir, redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import pytest
@@ -30,8 +32,11 @@ def dual_feet() -> Path:
     return folder
 
 
+Run = Callable[..., subprocess.CompletedProcess[str]]
+
+
 @pytest.fixture(scope="session")
-def dualfoot() -> Callable[..., subprocess.CompletedProcess[str]]:
+def dualfoot_process() -> Run:
     """Run the command of this checkout as a process and return what it printed."""
 
     def run(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
@@ -42,6 +47,23 @@ def dualfoot() -> Callable[..., subprocess.CompletedProcess[str]]:
             cwd=cwd,
             env=environment(),
         )
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def dualfoot() -> Run:
+    """Run the command in this process, which has imported everything, and return the same."""
+    from dualfoot_ros.cli.main import main
+
+    def run(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+        words, out, error = [*map(str, arguments)], StringIO(), StringIO()
+        with chdir(cwd or Path.cwd()), redirect_stdout(out), redirect_stderr(error):
+            try:
+                code = main(words)
+            except SystemExit as end:  # --help, and what argparse refuses
+                code = int(end.code or 0)
+        return subprocess.CompletedProcess(words, code, out.getvalue(), error.getvalue())
 
     return run
 

@@ -114,8 +114,8 @@ def test_an_interrupt_ends_with_130_and_without_a_traceback(monkeypatch, capsys)
     assert capsys.readouterr().err == "dualfoot info: interrupted\n"
 
 
-def test_the_exit_code_of_the_process_is_that_of_the_verb(tmp_path, dualfoot):
-    done = dualfoot("info", "no_such_bag", cwd=tmp_path)
+def test_the_exit_code_of_the_process_is_that_of_the_verb(tmp_path, dualfoot_process):
+    done = dualfoot_process("info", "no_such_bag", cwd=tmp_path)
     assert done.returncode == 2
     assert done.stdout == ""
     assert done.stderr.startswith("dualfoot info: error: there is no bag 'no_such_bag'")

@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = """
 import sys
 sys.path.insert(0, {path!r})
-from evaluation.batch.test_workers import busy
+from evaluation.batch.busy import busy
 from dualfoot_ros.evaluation.batch.workers import Workers
 {before}
 if __name__ == "__main__":
@@ -29,12 +29,6 @@ def tenfold(number: int) -> int:
     if number == 17:
         raise ZeroDivisionError("seventeen")
     return 10 * number
-
-
-def busy(number: int) -> int:
-    print("on", flush=True)
-    while True:
-        number += 1
 
 
 def test_results_know_their_items_and_a_second_round_uses_the_same_processes():

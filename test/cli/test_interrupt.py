@@ -164,7 +164,7 @@ MOMENTS = {
     "when both are": lambda running, cpu_s: len(running.others()) == 2,
     "while they import": lambda running, cpu_s: imports(running, "_multiarray_umath"),
     "while they load the kernel": lambda running, cpu_s: imports(running, "llvmlite"),
-    "while they work": lambda running, cpu_s: imports(running, "llvmlite") and cpu_s > 4.5,
+    "while they work": lambda running, cpu_s: imports(running, "llvmlite") and cpu_s > 4.0,
 }
 
 

@@ -44,7 +44,7 @@ ROS = {
     "tf2_msgs",
     "tf2_ros",
 }
-HEAVY = {"bleak", "matplotlib", "numba", "rosbags", "serial", *ROS}
+HEAVY = {"bleak", "matplotlib", "numba", "rosbags", "scipy", "serial", *ROS}
 CLOCK_OR_LOG = {"datetime", "logging", "time"}
 OUTSIDE = {"io", "os", "pathlib", "shutil", "socket", "subprocess", "tempfile", "threading"}
 COMPILER = "compiler"  # the room of core where compiled code is made and kept

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ..core import FloatArray, Parameters, PoseSeries, parameter
 
@@ -69,6 +68,8 @@ def sense_field(
     rng: np.random.Generator,
 ) -> FloatArray:
     """Return the field (N, 3) T, sensor axes, that a magnetometer measures at poses ``truth``."""
+    from scipy.spatial.transform import Rotation
+
     turned = Rotation.from_quat(truth.quaternion)
     field = turned.apply(surroundings.field(truth.position), inverse=True)
     field += config.hard_iron * rng.standard_normal(3)

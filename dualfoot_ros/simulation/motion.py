@@ -8,9 +8,9 @@ differentiable, exactly at rest where the rough motion rests, every derivative a
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import BSpline
 
 from ..core import FloatArray
 from . import gait
@@ -18,6 +18,9 @@ from .footprints import HEEL_STRIKE, Footprints
 from .noise import smooth_noise, smooth_rate_noise
 from .routes import Route
 from .walk_config import WalkConfig, rotation_zyx
+
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline
 
 KNOT_S = 0.01
 MARGIN_S = 0.5
@@ -130,6 +133,8 @@ class Walker:
 
     def motion(self) -> ShoeMotion:
         """Return the motion with the present ``skew`` and ``bulge``."""
+        from scipy.interpolate import BSpline
+
         spline = BSpline(self.knots, self._control_points(), 5)
         return ShoeMotion(spline, self.config.gravity)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ..core import FloatArray, IntArray, PoseSeries, SimulationError
 from .footprints import Footprints, plan
@@ -49,6 +48,8 @@ class Walk:
 
     def truth(self, sensor: int, time_s: FloatArray, stamp_ns: IntArray) -> PoseSeries:
         """Return the exact poses and velocities of a sensor at ``time_s`` (N,) s."""
+        from scipy.spatial.transform import Rotation
+
         place = self.levers[sensor], self.mountings[sensor]
         moved = self.shoes[sensor].kinematics(time_s, *place)
         turned = Rotation.from_matrix(moved.rotation).as_quat()

@@ -1,11 +1,17 @@
 """Packaging of dualfoot_ros, for ``colcon build`` and for ``pip install`` alike."""
 
-from glob import glob
+from pathlib import Path
 
 from setuptools import find_packages, setup
 
 NAME = "dualfoot_ros"
 NODES = ["bringup", "fusion", "imu_adapter", "replay", "time_sync"]
+
+
+def files(folder: str, pattern: str) -> list[str]:
+    """Return the paths of a folder's files, as they are installed."""
+    return sorted(str(path) for path in Path(folder).glob(pattern))
+
 
 # A stock ROS 2 installation brings rclpy and the messages itself; only the extra `ros` asks for
 # the wheels.  The presets travel twice: in the ament share, and as package data for `pip`.
@@ -23,9 +29,9 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
         (f"share/{NAME}", ["package.xml"]),
-        (f"share/{NAME}/config", sorted(glob("config/*.yaml"))),
-        (f"share/{NAME}/config/nodes", sorted(glob("config/nodes/*.yaml"))),
-        (f"share/{NAME}/launch", sorted(glob("launch/*.launch.py"))),
+        (f"share/{NAME}/config", files("config", "*.yaml")),
+        (f"share/{NAME}/config/nodes", files("config/nodes", "*.yaml")),
+        (f"share/{NAME}/launch", files("launch", "*.launch.py")),
     ],
     zip_safe=False,
     install_requires=[

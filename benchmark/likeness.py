@@ -1,4 +1,4 @@
-"""How like real walks the simulated ones are: the table of docs/simulation.md, "How real".
+"""Likeness of simulated to real walks: the table of docs/explanation/simulation.md, "How real".
 
     python benchmark/likeness.py DATA        DATA: folder of the dual-feet data set
 

@@ -1,4 +1,4 @@
-"""Write ``config/*.yaml`` and ``docs/parameters.md`` from the declarations: ``make config``."""
+"""Write ``config/*.yaml`` and ``docs/reference/parameters.md``: ``make config``."""
 
 from __future__ import annotations
 
@@ -28,10 +28,12 @@ NODES = """\
 TABLES = """\
 # Parameters
 
-Written by `make config` from the declarations in `dualfoot_ros/core/` and
-`dualfoot_ros/settings/nodes.py`: change those, not this file.  A key is written dotted (`--set
-zupt.std=0.02`) or nested (YAML).  A value out of range is refused with its name, the value and
-what is allowed; a name that does not exist is refused offline and warned of by the nodes.
+All parameters with default, allowed values and meaning. A name is written dotted (`--set
+zupt.std=0.02`) or nested (YAML). A value out of range is refused with its name, the value and what
+is allowed. A name that does not exist is refused offline; the nodes warn of it.
+
+`make config` writes this page from the declarations in `dualfoot_ros/core/` and
+`dualfoot_ros/settings/nodes.py`: change those, not the page.
 
 """
 SECTIONS = {
@@ -59,15 +61,15 @@ def files() -> dict[Path, str]:
     return {
         CONFIG / "default.yaml": DEFAULT + parameter_file("/**", all_specs()),
         CONFIG / "nodes" / "bringup.yaml": NODES + "\n".join(sections),
-        ROOT / "docs" / "parameters.md": TABLES + tables(),
+        ROOT / "docs" / "reference" / "parameters.md": TABLES + tables(),
     }
 
 
 def tables() -> str:
     """Return a table of the tracker's parameters and one for each node."""
     parts = [table("Tracker (offline verbs, and the node `fusion`)", all_specs())]
-    for node in dict.fromkeys(SECTIONS.values()):
-        parts.append(table(f"Node `{node}`", node_specs(node)))
+    nodes = dict.fromkeys(SECTIONS.values())
+    parts += [table(f"Node `{node}`", node_specs(node)) for node in nodes]
     return "\n".join(parts)
 
 
@@ -75,10 +77,16 @@ def table(title: str, specs: Iterable[ParameterSpec]) -> str:
     """Return a Markdown table of ``specs``."""
     lines = [f"## {title}", "", "| name | default | allowed | meaning |", "|---|---|---|---|"]
     for spec in specs:
-        default = list(spec.default) if isinstance(spec.default, tuple) else spec.default
-        shown = f"`{default}`" if default != "" else ""
+        shown = f"`{shown_default(spec)}`" if spec.default != "" else ""
         lines.append(f"| `{spec.name}` | {shown} | {spec.allowed} | {spec.description} |")
     return "\n".join([*lines, ""])
+
+
+def shown_default(spec: ParameterSpec) -> str:
+    """Return a default as YAML has it."""
+    if isinstance(spec.default, bool):
+        return str(spec.default).lower()
+    return str(list(spec.default) if isinstance(spec.default, tuple) else spec.default)
 
 
 if __name__ == "__main__":

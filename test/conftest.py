@@ -1,13 +1,17 @@
-"""What tests of several parts need: the real walks, where they are."""
+"""What tests of several parts need: the real walks, processes, a clock of one's own."""
 
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import chdir, redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from own_time import OwnTime, put_in_place
+from processes import Session, environment
 
 # The same examples at every run, so that a change is judged by itself.  To look for new ones:
 # pytest --hypothesis-profile=explore
@@ -28,18 +32,58 @@ def dual_feet() -> Path:
     return folder
 
 
+Run = Callable[..., subprocess.CompletedProcess[str]]
+
+
 @pytest.fixture(scope="session")
-def dualfoot() -> Callable[..., subprocess.CompletedProcess[str]]:
+def dualfoot_process() -> Run:
     """Run the command of this checkout as a process and return what it printed."""
 
     def run(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-        paths = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
         return subprocess.run(
             [sys.executable, "-m", "dualfoot_ros", *map(str, arguments)],
+            check=False,
             capture_output=True,
             text=True,
             cwd=cwd,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
+            env=environment(),
         )
 
     return run
+
+
+@pytest.fixture(scope="session")
+def dualfoot() -> Run:
+    """Run the command in this process, which has imported everything, and return the same."""
+    from dualfoot_ros.cli.main import main
+
+    def run(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+        words, out, error = [*map(str, arguments)], StringIO(), StringIO()
+        with chdir(cwd or Path.cwd()), redirect_stdout(out), redirect_stderr(error):
+            try:
+                code = main(words)
+            except SystemExit as end:  # --help, and what argparse refuses
+                code = int(end.code or 0)
+        return subprocess.CompletedProcess(words, code, out.getvalue(), error.getvalue())
+
+    return run
+
+
+@pytest.fixture
+def clock(monkeypatch) -> OwnTime:
+    """Return the monotonic clock of the package: silence and patience pass when the test says."""
+    return put_in_place(monkeypatch)
+
+
+@pytest.fixture
+def session() -> Iterator[Callable[..., Session]]:
+    """Start Python processes that are to be interrupted; nothing of them outlives the test."""
+    started: list[Session] = []
+
+    def start(*arguments: object, **options) -> Session:
+        started.append(Session(*arguments, **options))
+        return started[-1]
+
+    yield start
+    for each in started:
+        each.close()

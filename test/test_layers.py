@@ -10,12 +10,12 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parents[1] / "dualfoot_ros"
 MODULES = sorted(PACKAGE.rglob("*.py"))
 TOP = "modules at the top of the package"
-TABLE = PACKAGE.parent / "docs" / "architecture.md"
+TABLE = PACKAGE.parent / "docs" / "explanation" / "architecture.md"
 NODES = "nodes"
 
 
 def layers() -> dict[str, set[str]]:
-    """Return the rooms and what each may import, from the table in docs/architecture.md."""
+    """Return the rooms and what each may import, from the table in TABLE."""
     rows = re.findall(r"^\| `(\w+)/` \|.*\| (.*) \|$", TABLE.read_text(encoding="utf-8"), re.M)
     rooms = {room for room, _ in rows}
     found = {}
@@ -44,7 +44,7 @@ ROS = {
     "tf2_msgs",
     "tf2_ros",
 }
-HEAVY = {"bleak", "matplotlib", "numba", "rosbags", "serial", *ROS}
+HEAVY = {"bleak", "matplotlib", "numba", "rosbags", "scipy", "serial", *ROS}
 CLOCK_OR_LOG = {"datetime", "logging", "time"}
 OUTSIDE = {"io", "os", "pathlib", "shutil", "socket", "subprocess", "tempfile", "threading"}
 COMPILER = "compiler"  # the room of core where compiled code is made and kept
@@ -80,7 +80,7 @@ def at_import_time(node: ast.AST) -> Iterator[ast.AST]:
 
 def root(name: str) -> str:
     """Return the outermost package of ``name``."""
-    return name.split(".")[0]
+    return name.split(".", maxsplit=1)[0]
 
 
 def layer(path: Path) -> str:

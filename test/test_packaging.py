@@ -5,10 +5,10 @@ import re
 import shutil
 import subprocess
 import sys
-import xml.etree.ElementTree as ElementTree
 from importlib import import_module
 from pathlib import Path
 from unittest.mock import patch
+from xml.etree import ElementTree
 
 import pytest
 
@@ -21,7 +21,7 @@ def setup_arguments():
     """Return what setup.py hands to setuptools."""
     pytest.importorskip("setuptools")
     with patch("setuptools.setup") as setup:
-        before = os.getcwd()
+        before = Path.cwd()
         os.chdir(ROOT)
         try:
             exec(compile((ROOT / "setup.py").read_text(), "setup.py", "exec"), {})
@@ -97,6 +97,7 @@ def installed(tmp_path_factory):
     done = subprocess.run(
         [sys.executable, "setup.py", "install", "--prefix", str(prefix), *record],
         cwd=source,
+        check=False,
         capture_output=True,
         text=True,
     )
@@ -124,7 +125,9 @@ def test_installed_share_has_marker_manifest_presets_and_launch_file(installed):
 def run_installed(installed, *command, **variables):
     (site,) = installed.rglob("site-packages")
     env = {**os.environ, "PYTHONPATH": str(site), **variables}
-    return subprocess.run(command, cwd=installed, env=env, capture_output=True, text=True)
+    return subprocess.run(
+        command, cwd=installed, env=env, check=False, capture_output=True, text=True
+    )
 
 
 def test_an_installed_executable_runs(installed):
@@ -150,7 +153,7 @@ def test_make_names_its_targets_without_an_environment():
     make = shutil.which("make")
     if make is None:
         pytest.skip("make is not installed")
-    done = subprocess.run([make, "-C", str(ROOT)], capture_output=True, text=True)
+    done = subprocess.run([make, "-C", str(ROOT)], check=False, capture_output=True, text=True)
     assert done.returncode == 0
     for target in ("demo", "test", "bags", "clean"):
         assert f"make {target} " in done.stdout
@@ -159,7 +162,9 @@ def test_make_names_its_targets_without_an_environment():
 def test_a_python_that_does_not_fit_is_refused_in_a_sentence(tmp_path):
     script = ROOT / "scripts" / "make_venv"
     env = {**os.environ, "PYTHON": "/no/such/python"}
-    done = subprocess.run([script, tmp_path / "venv"], env=env, capture_output=True, text=True)
+    done = subprocess.run(
+        [script, tmp_path / "venv"], env=env, check=False, capture_output=True, text=True
+    )
     assert done.returncode == 2
     assert "PYTHON=/no/such/python is not a Python 3.11 or 3.12" in done.stderr
     assert not (tmp_path / "venv").exists()
@@ -178,6 +183,8 @@ def test_a_python_without_venv_names_the_package_to_install(tmp_path):
     fake.chmod(0o755)
     env = {**os.environ, "PYTHON": str(fake)}
     script = ROOT / "scripts" / "make_venv"
-    done = subprocess.run([script, tmp_path / "venv"], env=env, capture_output=True, text=True)
+    done = subprocess.run(
+        [script, tmp_path / "venv"], env=env, check=False, capture_output=True, text=True
+    )
     assert done.returncode == 2
     assert "apt install python3.12-venv" in done.stderr

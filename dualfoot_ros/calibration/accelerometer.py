@@ -29,6 +29,7 @@ REPEATABILITY = 0.01  # m/s^2, by which one attitude is reproduced at best
 LOWER = (np.array([1, 2, 2]), np.array([0, 0, 1]))
 DOUBTFUL = 0.04  # m/s^2; a fit that leaves more is not of one sensor at rest
 AXES = ("x", "y", "z")
+ZERO = 1e-6  # m/s^2
 SIDES = 0.7  # cosine within which an attitude has an axis up or down
 
 
@@ -89,7 +90,7 @@ class AccelerometerFit:
     @property
     def zero_by_construction(self) -> bool:
         """Whether the residuals are zero because there are as many parameters as attitudes."""
-        return self.redundancy <= 0 and rms(self.residual_after) < 1e-6
+        return self.redundancy <= 0 and rms(self.residual_after) < ZERO
 
     @property
     def doubtful(self) -> bool:

@@ -140,4 +140,5 @@ def _bias_std(curve: AllanCurve, slopes: Sequence[Slopes]) -> FloatArray:
     """
     white = curve.deviation[-1] * math.sqrt(curve.tau[-1] / curve.duration_s)
     floor = [0.0 if s.floor is None else s.lowest for s in slopes]
-    return np.maximum(white, floor)
+    lowest: FloatArray = np.maximum(white, floor)
+    return lowest

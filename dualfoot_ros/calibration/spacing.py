@@ -39,6 +39,7 @@ LEAST_STEPS = 3
 CURVE_DEG = 25.0  # two steps in which the walk turns by less count for kappa
 SEEN_STD_M = 0.05  # the spacing counts as seen when it is known this well
 SWAPPED_SIGMAS = 3.0
+SLOWEST = 0.5  # m/s
 KAPPA = (0.2, 0.8)
 
 
@@ -184,7 +185,7 @@ def _kappas(
         if (
             alternating
             and straight(before, after, CURVE_DEG)
-            and d.speed > 0.5
+            and d.speed > SLOWEST
             and d.stance_s > 0.0
         ):
             ahead = (details[k - 1].ahead + 2.0 * d.ahead + details[k + 1].ahead) / 4.0

@@ -15,7 +15,7 @@ from .progress import progress
 if TYPE_CHECKING:
     from ..core import TrackerConfig
 
-    Arguments = argparse._ActionsContainer  # a parser or a group of one
+    Arguments = argparse._ActionsContainer  # noqa: SLF001  (a parser or a group; it has no other name)
 
 BAG = "rosbag2 folder (or its one file)"
 MOST_JOBS = 256

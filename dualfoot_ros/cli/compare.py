@@ -183,9 +183,10 @@ def _draw(entries: Sequence[Entry], rows: list[dict[str, Any]], folder: Path) ->
         path = folder / f"tracks_{name}{f'_{index}' if taken else ''}.png"
         if own:
             paths.append(draw_compared(own, path, name))
-    for name in dict.fromkeys(row["swept"] for row in rows if row["swept"] is not None):
-        paths.append(draw_sweep(rows, name, folder / f"sweep_{name.replace('.', '_')}.png"))
-    return paths
+    swept = dict.fromkeys(row["swept"] for row in rows if row["swept"] is not None)
+    return paths + [
+        draw_sweep(rows, name, folder / f"sweep_{name.replace('.', '_')}.png") for name in swept
+    ]
 
 
 def _print(

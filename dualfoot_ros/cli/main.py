@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from typing import Protocol, cast
 
 from .. import __version__
+from .interrupt import EXIT_INTERRUPTED, Interruptible
 
 VERBS = {
     "import": "import_",
@@ -26,7 +27,6 @@ VERBS = {
     "consistency": "consistency",
 }
 EXIT_BAD_INPUT = 2
-EXIT_INTERRUPTED = 130
 EXIT_BROKEN_PIPE = 141
 
 EXAMPLES = """\
@@ -64,7 +64,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     name, *rest = arguments
     if name not in VERBS:
         return _unknown(name)
-    return _run(name, rest)
+    sentence = f"dualfoot {name}: interrupted"
+    try:
+        if argv is not None:
+            return _run(name, rest)
+        with Interruptible(sentence):  # the process is ours to end
+            return _run(name, rest)
+    except KeyboardInterrupt:
+        print(sentence, file=sys.stderr)
+        return EXIT_INTERRUPTED
 
 
 def load(name: str) -> Verb:
@@ -90,9 +98,6 @@ def _run(name: str, arguments: list[str]) -> int:
         args = parser_of(name).parse_args(arguments)
         code = load(name).run(args)
         sys.stdout.flush()
-    except KeyboardInterrupt:
-        print(f"dualfoot {name}: interrupted", file=sys.stderr)
-        return EXIT_INTERRUPTED
     except BrokenPipeError:
         # The reader of our output is gone; keep the interpreter from flushing into it again.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

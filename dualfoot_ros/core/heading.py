@@ -124,7 +124,7 @@ class Headings:
         rotation = about_z(by) @ direction.rotation
         self._reference[foot] = (rotation, ahead)
         self._initial.aim(foot, rotation.T @ np.array([math.cos(ahead), math.sin(ahead), 0.0]))
-        turned = turn(self._space, engine, foot, by, direction.pivot, np.zeros(3), stamp)
+        turned = turn(self._space, engine, foot, by, direction.pivot, np.zeros(3), stamp=stamp)
         self._follow(foot)
         return [turned]
 
@@ -165,7 +165,8 @@ class Headings:
             if known is not None:
                 self._reference[foot] = (about_z(by) @ known[0], known[1] + by)
         return [
-            turn(self._space, engine, f, by, middle, shift, stamp, joint=True) for f in range(2)
+            turn(self._space, engine, f, by, middle, shift, stamp=stamp, joint=True)
+            for f in range(2)
         ]
 
     def _rotation(self, foot: int) -> FloatArray:
@@ -180,6 +181,7 @@ def turn(
     yaw: float,
     pivot: FloatArray,
     shift: FloatArray,
+    *,
     stamp: int,
     joint: bool = False,
 ) -> Event:

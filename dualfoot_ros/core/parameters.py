@@ -80,8 +80,7 @@ def parameter(
         "choices": choices,
         "description": description,
     }
-    declared: Any = field(default=default, metadata=meta)
-    return declared
+    return field(default=default, metadata=meta)
 
 
 @dataclass(frozen=True)

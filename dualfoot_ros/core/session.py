@@ -98,7 +98,7 @@ class Session:
         if arm is None:
             return []
         shift = self._second_sensor(arm) - self._estimate.position(1)
-        return [turn(self.space, self._engine, 1, 0.0, np.zeros(3), shift, now)]
+        return [turn(self.space, self._engine, 1, 0.0, np.zeros(3), shift, stamp=now)]
 
     def _watch(self) -> None:
         """Have the kernel report when the method wants to know, once the heading is known."""

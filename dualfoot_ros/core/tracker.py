@@ -296,7 +296,9 @@ class DualFootTracker:
             "still with both feet on the ground at the start, and check units and axes"
         )
 
-    def _run(self, stamps: IntArray, values: FloatArray) -> tuple[IntArray, FloatArray, list]:
+    def _run(
+        self, stamps: IntArray, values: FloatArray
+    ) -> tuple[IntArray, FloatArray, list[Event]]:
         """Feed everything; long regular stretches of walking go through the kernel at once."""
         count = len(stamps)
         out = np.zeros((count, lay.OUT))

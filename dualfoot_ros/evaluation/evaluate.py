@@ -95,7 +95,7 @@ class Evaluation:
     def to_dict(self) -> dict[str, Any]:
         """Return all figures as plain values for JSON; None where a figure does not exist."""
         track = self.trajectory
-        return plain(
+        figures: dict[str, Any] = plain(
             {
                 "method": track.method,
                 "start_ns": track.start_ns,
@@ -114,6 +114,7 @@ class Evaluation:
                 "notes": list(self.notes),
             }
         )
+        return figures
 
     def _alignment(self) -> dict[str, Any]:
         aligned = self.aligned_to is not None

@@ -1,19 +1,22 @@
-"""Findings on a recording: what ``info`` prints and ``evaluate`` refuses."""
+"""What a recording or a live stream is worth: facts in figures, and findings."""
 
-from .exchanged_feet import walk_findings
-from .field_facts import FieldFacts, field_facts
-from .finding import Finding, FindingKind, Severity
+from .field_facts import FieldFacts, field_facts, recorded_fields
 from .findings import (
+    GRAVITY_ERROR,
+    STUCK_SHARE,
+    Finding,
+    FindingKind,
+    Key,
+    Severity,
     check_usable,
     findings_of,
     qualities_of,
-    recorded_fields,
     require_usable,
+    walk_findings,
 )
 from .lateral_spacing import SideBySide, side_by_side, straight
 from .pressure_facts import PressureFacts, pressure_facts, wearer_words
 from .quality import Quality, quality_of
-from .sample_findings import GRAVITY_ERROR, STUCK_SHARE
 from .stance_statistics import StanceStatistics, stance_statistics, unconstrained_config
 from .stuck_values import AXES, TRIADS, Channel, Held, Stuck, held_at_rest
 
@@ -27,6 +30,7 @@ __all__ = [
     "Finding",
     "FindingKind",
     "Held",
+    "Key",
     "PressureFacts",
     "Quality",
     "Severity",

@@ -1,18 +1,15 @@
-"""Facts and findings on the magnetic field at a foot."""
+"""The magnetic field at a foot in figures."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import ImuSeries
+from ..core import FEET, ImuSeries
 from ..core.aids import RANGE_T
-from .finding import Finding, FindingKind, Severity
+from ..recording import Recording
 
-EARTH_T = (2e-5, 7e-5)  # bounds of the earth's field anywhere, with some margin
-UNITS_T = {"uT": 1e-6, "nT": 1e-9, "G": 1e-4, "mG": 1e-7}
 BAND = (0.05, 0.5, 0.95)
 
 
@@ -48,32 +45,8 @@ def field_facts(series: ImuSeries) -> FieldFacts | None:
     return FieldFacts(len(field), len(series), int((~within).sum()), *sizes_t)
 
 
-def field_findings(fields: Mapping[str, FieldFacts]) -> Iterator[Finding]:
-    """Yield the findings on the fields; all are warnings."""
-    for foot, facts in fields.items():
-        if not facts.samples:
-            yield Finding(
-                FindingKind.FIELD_STAMPS,
-                Severity.WARNING,
-                f"magnetic field of the {foot} foot: none has the stamp of a sample, so none is "
-                "used",
-                "give it the stamp of the sample it was measured with",
-            )
-        if facts.out_of_range:
-            yield _out_of_range(foot, facts)
-
-
-def _out_of_range(foot: str, facts: FieldFacts) -> Finding:
-    text = (
-        f"magnetic field of the {foot} foot: {facts.out_of_range} of {facts.samples} samples are "
-        f"no field of the earth in T (the median is {facts.median_t:.3g})"
-    )
-    for unit, size in UNITS_T.items():
-        if EARTH_T[0] < facts.median_t * size < EARTH_T[1]:
-            return Finding(
-                FindingKind.FIELD_RANGE,
-                Severity.WARNING,
-                f"{text}, so they are in {unit}",
-                "publish T, as sensor_msgs/MagneticField has it",
-            )
-    return Finding(FindingKind.FIELD_RANGE, Severity.WARNING, f"{text}; they are left out")
+def recorded_fields(recording: Recording) -> dict[str, FieldFacts]:
+    """Return the facts of the magnetic field of each foot that has one recorded."""
+    series = {foot: recording.imu(foot) for foot in FEET}
+    facts = {foot: field_facts(s) for foot, s in series.items() if s is not None}
+    return {foot: known for foot, known in facts.items() if known is not None}

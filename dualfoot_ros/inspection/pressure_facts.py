@@ -1,18 +1,13 @@
-"""Facts and findings on the samples of an air pressure sensor."""
+"""The samples of an air pressure sensor in figures."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import PressureSeries
+from ..core import FloatArray, PressureSeries
 from ..core.aids import RANGE_PA, pressure_height
-from .finding import Finding, FindingKind, Severity
-from .quality import Quality
-
-HECTO = 100.0
 
 
 @dataclass(frozen=True)
@@ -68,58 +63,14 @@ def pressure_facts(series: PressureSeries) -> PressureFacts:
     )
 
 
-def pressure_findings(
-    pressure: Mapping[str, PressureSeries], qualities: Mapping[str, Quality]
-) -> Iterator[Finding]:
-    """Yield the findings on the sensors of air pressure; all are warnings."""
-    for worn, series in pressure.items():
-        facts, wearer = pressure_facts(series), wearer_words(worn)
-        if facts.out_of_range:
-            yield _out_of_range(wearer, facts)
-        if facts.out_of_order:
-            yield Finding(
-                FindingKind.PRESSURE_STAMPS,
-                Severity.WARNING,
-                f"pressure of {wearer}: {facts.out_of_order} duplicate or out-of-order stamps are "
-                "left out",
-            )
-        apart = [
-            foot
-            for foot, quality in qualities.items()
-            if facts.end_s < quality.start_s or facts.start_s > quality.end_s
-        ]
-        if apart:
-            yield Finding(
-                FindingKind.PRESSURE_CLOCK,
-                Severity.WARNING,
-                f"pressure of {wearer} (from {facts.start_s:.3f} to {facts.end_s:.3f} s) shares "
-                f"no time with the {' and the '.join(apart)} foot",
-                "stamp it by the same clock",
-            )
-
-
-def _out_of_range(wearer: str, facts: PressureFacts) -> Finding:
-    text = (
-        f"pressure of {wearer}: {facts.out_of_range} of {facts.samples} samples are no air "
-        f"pressure in Pa (the median is {facts.median:.6g})"
-    )
-    if RANGE_PA[0] < facts.median * HECTO < RANGE_PA[1]:
-        return Finding(
-            FindingKind.PRESSURE_RANGE,
-            Severity.WARNING,
-            f"{text}, so they are in hPa",
-            "publish Pa, as sensor_msgs/FluidPressure has it",
-        )
-    return Finding(FindingKind.PRESSURE_RANGE, Severity.WARNING, f"{text}; they are left out")
-
-
 def wearer_words(worn: str) -> str:
     """Return in words where a sensor is worn: "left", "right" or "both" (the body)."""
     return "the body" if worn == "both" else f"the {worn} foot"
 
 
-def _means(heights: np.ndarray, size: int) -> np.ndarray:
+def _means(heights: FloatArray, size: int) -> FloatArray:
     """Return the means of successive groups of ``size`` (at least one group)."""
     size = min(max(1, size), max(1, len(heights)))
     count = len(heights) // size
-    return heights[: count * size].reshape(count, size).mean(axis=1)
+    means: FloatArray = heights[: count * size].reshape(count, size).mean(axis=1)
+    return means

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
@@ -26,6 +26,9 @@ from .ros import qos
 from .ros.declared_parameters import declare, group
 from .ros.program import Graph, Program, destroy, run_nodes
 from .time_sync import TimeSyncNode
+
+if TYPE_CHECKING:
+    from .playback.recorder import RecorderNode
 
 QUIET_S = 0.5  # without a result after the end of the playback: the last one has come
 Sensors = ReplayNode | ImuAdapterNode
@@ -74,13 +77,15 @@ def _add_nodes(
     fusion = FusionNode(**_add_parameters(options, external))
     nodes.append(fusion)
     nodes.append(TimeSyncNode(**options))
+    recorder: RecorderNode | None = None
     if settings.record:
-        nodes.append(_make_recorder(Path(settings.record).expanduser(), fusion, options))
+        recorder = _make_recorder(Path(settings.record).expanduser(), fusion, options)
+        nodes.append(recorder)
     sensors: list[Sensors] = []
     for sensor in _make_sensors(settings, nodes[0].get_namespace().rstrip("/"), options):
         sensors.append(sensor)
         nodes.append(sensor)
-    return _when_over(sensors, fusion) if sensors else None
+    return _when_over(sensors, fusion, recorder) if sensors else None
 
 
 def _make_sensors(
@@ -114,7 +119,7 @@ def _add_parameters(options: dict[str, Any], *parameters: Parameter) -> dict[str
     return {**options, "parameter_overrides": [*given, *parameters]}
 
 
-def _make_recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> Node:
+def _make_recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> RecorderNode:
     from .playback.recorder import RecorderNode
 
     topics: dict[str, Any] = {}
@@ -130,18 +135,23 @@ def _make_recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> N
     return RecorderNode(path, topics, **options)
 
 
-def _when_over(sensors: Sequence[Sensors], fusion: FusionNode) -> Future:
+def _when_over(
+    sensors: Sequence[Sensors], fusion: FusionNode, recorder: RecorderNode | None
+) -> Future:
     """Return a future that is done when all is played and the last results have come.
+
+    So it is when neither fusion has published nor the recorder, which may be behind, has written
+    anything for ``QUIET_S``.
 
     It fails with the first sensor that does.
     """
     done: Future = Future()
-    before: tuple[bool, int] | None = None
+    before: tuple[bool, int, int] | None = None
 
     def look() -> None:
         nonlocal before
         over, failed = _check_ends(sensors)
-        now = (over, fusion.outputs.published)
+        now = (over, fusion.outputs.published, 0 if recorder is None else recorder.recorded)
         if failed is not None:
             done.set_exception(failed)
         elif over and now == before:

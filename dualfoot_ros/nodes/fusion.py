@@ -26,7 +26,7 @@ from .ros.diagnostics import Reporter
 from .ros.messages import imu_values, pose_yaw, to_ns
 from .ros.program import Graph, Program, run_nodes
 
-NO_PAIRS = "; the node that makes the pairs, as time_sync, reports in /diagnostics why it has none"
+NO_PAIRS = "the node that makes the pairs, as time_sync, reports in /diagnostics why it has none"
 PROGRAM = Program(
     "fusion",
     "Track both feet: left|right/imu/data_raw (or data_sync) in; left|right/odometry,\n"
@@ -89,7 +89,7 @@ class FusionNode(Node):
             self._track,
             stamping=stamping,
             also=aids,
-            hint=NO_PAIRS if external else "",
+            remedy=NO_PAIRS if external else "",
         )
 
     def _listen_for_aids(

@@ -144,7 +144,7 @@ class ImuAdapterNode(Node):
             config,
             self._take,
             self._finish,
-            None if sources.is_live(source) else begin,
+            begin=None if sources.is_live(source) else begin,
         )
         self.check = self.device.source.check
         self.device.start()

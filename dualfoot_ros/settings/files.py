@@ -25,7 +25,7 @@ def read_parameters(path: Path) -> dict[str, Any]:
         When the file cannot be read as YAML or holds no ``ros__parameters``.
     """
     try:
-        document = yaml.load(path.read_text(encoding="utf-8"), Loader=_loader())
+        document = yaml.load(path.read_text(encoding="utf-8"), Loader=_loader())  # noqa: S506  (a SafeLoader)
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         reason = " ".join(str(error).split())
         raise ConfigError(f"configuration file '{path}' is not valid YAML: {reason}") from None

@@ -92,7 +92,7 @@ class AdapterConfig(Parameters):
     source: str = parameter(
         "topic:///imu",
         "where samples come from: topic:///NAME, file://PATH (bag or Xsens csv), or a device: "
-        "serial://, udp://, tcp://, ble://, see docs/sensors.md",
+        "serial://, udp://, tcp://, ble://, see docs/reference/sensors.md",
     )
     foot: str = parameter(
         "auto",

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.signal import lfilter
 
 from ..core import FloatArray, Parameters, PressureSeries, parameter
 from ..core.aids import height_pressure
 from .clocks import ClockConfig, sample_times
+from .noise import gauss_markov
 
 if TYPE_CHECKING:
     from .walk import Walk
@@ -98,6 +98,5 @@ def _noise(config: BarometerConfig, count: int, rng: np.random.Generator) -> Flo
     """Return white noise and a first-order Gauss-Markov drift (N,), Pa."""
     white = config.noise * rng.standard_normal(count)
     keep = np.exp(-1.0 / (config.rate * config.drift_time))
-    drive = np.sqrt(1.0 - keep * keep) * rng.standard_normal(count)
-    drive[:1] /= np.sqrt(1.0 - keep * keep)
-    return white + config.drift * lfilter([1.0], [1.0, -keep], drive)
+    noise: FloatArray = white + config.drift * gauss_markov(keep, rng.standard_normal(count))
+    return noise

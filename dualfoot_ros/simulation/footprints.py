@@ -10,7 +10,7 @@ from ..core import FloatArray, SimulationError
 from .routes import Route
 from .walk_config import WalkConfig
 
-# Shares of the time from heel-off to flat foot, as seen on real walks (docs/simulation.md).
+# Shares of the time from heel-off to flat foot, as on real walks (docs/explanation/simulation.md).
 TOE_OFF = 0.27
 HEEL_STRIKE = 0.84
 # The foot counts as standing from the last of the sole's slap to the first of the heel's rise:
@@ -149,12 +149,15 @@ class _Walker:
             side = 1.0 if index % 2 == 0 else -1.0
             along, across = self._scatter(on_stair)
             lateral = side * (0.5 * self.config.gait.step_width + across)
-            self._land(start, side, last, cycle, place + along, lateral, index > 0, bool(on_stair))
+            heel_off = self._heel_off(start, last, cycle)
+            flags = index > 0, bool(on_stair)
+            self.rows.append((side, last, heel_off, place + along, lateral, *flags))
         side = -self.rows[-1][0]
         last = self._next_flat(last, self.config.cycle_s)
         lateral = 0.5 * side * self.config.gait.standing_width
         place = self.rows[-1][3]
-        self._land(start, side, last, self.config.cycle_s, place, lateral, False, False)
+        heel_off = self._heel_off(start, last, self.config.cycle_s)
+        self.rows.append((side, last, heel_off, place, lateral, False, False))
         self.now = last + self.config.stop_duration
 
     def footprints(self, route: Route) -> Footprints:
@@ -182,23 +185,13 @@ class _Walker:
         spread = self.config.gait.footprint_std * (0.25 if on_stair else 1.0)
         return spread * self._normal(), 0.5 * spread * self._normal()
 
-    def _land(
-        self,
-        start: int,
-        side: float,
-        flat: float,
-        cycle: float,
-        progress: float,
-        lateral: float,
-        passes: bool,
-        stair: bool,
-    ) -> None:
+    def _heel_off(self, start: int, flat: float, cycle: float) -> float:
+        """Return when the heel left the ground for the step that ends at ``flat``."""
         gait = self.config.gait
         if len(self.rows) >= start + 2:
             cycle = flat - self.rows[-2][1]
         share = gait.stance_share + gait.stance_share_std * self._normal()
-        heel_off = flat - step_share(share) * cycle
-        self.rows.append((side, flat, heel_off, progress, lateral, passes, stair))
+        return flat - step_share(share) * cycle
 
     def _normal(self) -> float:
         """Return a standard normal number, cut at 2.5."""

@@ -7,12 +7,15 @@ heel rise, push-off at 8-9 rad/s, swing back at 6-7 rad/s, slap of the sole afte
 from __future__ import annotations
 
 from functools import cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from ..core import FloatArray
 from .footprints import HEEL_STRIKE, TOE_OFF
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
 
 FOOT_LENGTH_M = 0.17  # from the heel's edge to the ball
 MIDDLE_M = 0.17  # from the point about which the flat foot turns to the ball
@@ -80,13 +83,16 @@ _KEYS = {
 
 @cache
 def _template(name: str) -> PchipInterpolator:
+    from scipy.interpolate import PchipInterpolator
+
     phase, value = _KEYS[name]
     return PchipInterpolator(phase, value)
 
 
 def shape(name: str, phase: FloatArray) -> FloatArray:
     """Return a template (pitch, roll, yaw, turn or lift) at ``phase`` (N,) in [0, 1]."""
-    return _template(name)(phase)
+    values: FloatArray = _template(name)(phase)
+    return values
 
 
 def advance(phase: FloatArray, skew: FloatArray) -> tuple[FloatArray, FloatArray]:

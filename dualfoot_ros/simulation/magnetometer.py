@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ..core import FloatArray, Parameters, PoseSeries, parameter
 
@@ -58,7 +57,8 @@ class Surroundings:
     def field(self, position: FloatArray) -> FloatArray:
         """Return the field (N, 3) uT at places (N, 3) m, navigation axes."""
         waves = np.cos(position @ self._waves.T + self._phases)
-        return self._earth + self._size * waves @ self._directions
+        field: FloatArray = self._earth + self._size * waves @ self._directions
+        return field
 
 
 def sense_field(
@@ -68,7 +68,10 @@ def sense_field(
     rng: np.random.Generator,
 ) -> FloatArray:
     """Return the field (N, 3) T, sensor axes, that a magnetometer measures at poses ``truth``."""
+    from scipy.spatial.transform import Rotation
+
     turned = Rotation.from_quat(truth.quaternion)
     field = turned.apply(surroundings.field(truth.position), inverse=True)
     field += config.hard_iron * rng.standard_normal(3)
-    return MICRO * (field + config.noise * rng.standard_normal(field.shape))
+    tesla: FloatArray = MICRO * (field + config.noise * rng.standard_normal(field.shape))
+    return tesla

@@ -8,9 +8,9 @@ differentiable, exactly at rest where the rough motion rests, every derivative a
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import BSpline
 
 from ..core import FloatArray
 from . import gait
@@ -19,8 +19,12 @@ from .noise import smooth_noise, smooth_rate_noise
 from .routes import Route
 from .walk_config import WalkConfig, rotation_zyx
 
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline
+
 KNOT_S = 0.01
 MARGIN_S = 0.5
+LEAST_RISE_M = 0.05  # of a stair
 
 
 @dataclass(frozen=True)
@@ -53,7 +57,8 @@ class ShoeMotion:
     def position(self, time_s: FloatArray, lever: FloatArray) -> FloatArray:
         """Return the (N, 3) position of the point at ``lever`` (3,) m in the shoe."""
         state = self.spline(time_s)
-        return state[:, :3] + rotation_zyx(*state[:, 3:].T) @ lever
+        position: FloatArray = state[:, :3] + rotation_zyx(*state[:, 3:].T) @ lever
+        return position
 
     def kinematics(
         self, time_s: FloatArray, lever: FloatArray, mounting: FloatArray
@@ -94,7 +99,8 @@ def body_rates(
 
 
 def _rotate(rotation: FloatArray, vector: FloatArray) -> FloatArray:
-    return np.einsum("nij,nj->ni", rotation, vector)
+    rotated: FloatArray = np.einsum("nij,nj->ni", rotation, vector)
+    return rotated
 
 
 class Walker:
@@ -127,6 +133,8 @@ class Walker:
 
     def motion(self) -> ShoeMotion:
         """Return the motion with the present ``skew`` and ``bulge``."""
+        from scipy.interpolate import BSpline
+
         spline = BSpline(self.knots, self._control_points(), 5)
         return ShoeMotion(spline, self.config.gravity)
 
@@ -169,7 +177,8 @@ class Walker:
     def _pitch(self) -> FloatArray:
         """Return the (N,) pitch of the stride itself in rad, zero while the foot is flat."""
         scatter = 1.0 + self.config.gait.shape_std * self.scatter[self.now, 2]
-        return gait.shape("pitch", self.q) * scatter * self.scale[self.now]
+        pitch: FloatArray = gait.shape("pitch", self.q) * scatter * self.scale[self.now]
+        return pitch
 
     def _angles(self, progress: FloatArray, pitch: FloatArray) -> FloatArray:
         """Return (N, 3) yaw, pitch, roll of the shoe in rad."""
@@ -195,8 +204,9 @@ class Walker:
         rise = (floor[self.now] - floor[self.before]) * (self.now > 0)
         lift = gait.shape("lift", self.q) * self.config.gait.clearance
         lift = lift * (1.0 + 3.0 * self.config.gait.shape_std * self.scatter[self.now, 3])
-        lift = lift + 0.08 * gait.shape("lift", self.q) * (np.abs(rise) > 0.05)
-        return floor[self.now] - rise * (1.0 - gait.climb(self.q, rise)) + lift
+        lift = lift + 0.08 * gait.shape("lift", self.q) * (np.abs(rise) > LEAST_RISE_M)
+        height: FloatArray = floor[self.now] - rise * (1.0 - gait.climb(self.q, rise)) + lift
+        return height
 
     def _ring(self) -> FloatArray:
         """Return (N, 3) m: the ringing after heel strike along, across and up."""

@@ -13,6 +13,7 @@ from .routes import Route
 from .walk_config import WalkConfig
 
 ROUNDS = 4
+EDGE = 0.02  # share of a stance in which a least distance at its end is none
 
 
 @dataclass(frozen=True)
@@ -131,5 +132,5 @@ def passes(
     lever = config.mount.lever_of
     time_s, distance = least(motions, lever(1), lever(-1), plan.start, plan.end, 161)
     kappa = (time_s - plan.start) / (plan.end - plan.start)
-    inside = (kappa > 0.02) & (kappa < 0.98)
+    inside = (kappa > EDGE) & (kappa < 1.0 - EDGE)
     return Passes(time_s[inside], distance[inside], kappa[inside], -prints.side[plan.row[inside]])

@@ -45,7 +45,8 @@ class Route:
     def heading(self, progress: FloatArray) -> FloatArray:
         """Return the (N,) heading in rad, not wrapped, at ``progress`` (N,) m."""
         piece, inside = self._locate(progress)
-        return self._starts[piece, 3] + self._curvature[piece] * inside
+        heading: FloatArray = self._starts[piece, 3] + self._curvature[piece] * inside
+        return heading
 
     def point(self, progress: FloatArray, lateral: FloatArray) -> FloatArray:
         """Return the (N, 2) point in m, ``lateral`` (N,) m to the left of the line."""
@@ -69,7 +70,8 @@ class Route:
         length = np.array([max(p.length, 1e-9) for p in self.pieces])[piece]
         rise = np.array([p.rise for p in self.pieces])[piece]
         tread = np.clip(np.round(inside / length * treads), 0, treads)
-        return self._starts[piece, 4] + rise * tread / np.maximum(treads, 1)
+        height: FloatArray = self._starts[piece, 4] + rise * tread / np.maximum(treads, 1)
+        return height
 
     def repeated(self, laps: int) -> Route:
         """Return the route walked ``laps`` times; only a closed one can be.

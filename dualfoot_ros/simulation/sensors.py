@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.signal import lfilter
 
 from ..core import FloatArray, Parameters, SimulationError, parameter
+from .noise import gauss_markov
 
 _RATE = "rad/s"
 _FORCE = "m/s^2"
@@ -243,9 +243,9 @@ def _noise_and_instability(
     """Return (N, 3) white noise of that density plus a Gauss-Markov bias of that deviation."""
     white = noise / np.sqrt(interval_s) * rng.standard_normal((count, 3))
     keep = np.exp(-interval_s / config.instability_time)
-    drive = np.sqrt(1.0 - keep * keep) * rng.standard_normal((count, 3))
-    drive[:1] /= np.sqrt(1.0 - keep * keep)
-    return white + instability * lfilter([1.0], [1.0, -keep], drive, axis=0)
+    drift = gauss_markov(keep, rng.standard_normal((count, 3)))
+    drifting: FloatArray = white + instability * drift
+    return drifting
 
 
 def _saturate_and_quantise(value: FloatArray, full_scale: float, resolution: float) -> FloatArray:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ..core import FloatArray, IntArray, PoseSeries, SimulationError
 from .footprints import Footprints, plan
@@ -17,6 +16,7 @@ from .walk_config import WalkConfig
 
 START_NS = 1_750_000_000_000_000_000
 SIDES = (1, -1)
+SEPARATIONS_M = (0.001, 0.3)  # of two sensors on one shoe
 
 
 @dataclass(frozen=True)
@@ -48,6 +48,8 @@ class Walk:
 
     def truth(self, sensor: int, time_s: FloatArray, stamp_ns: IntArray) -> PoseSeries:
         """Return the exact poses and velocities of a sensor at ``time_s`` (N,) s."""
+        from scipy.spatial.transform import Rotation
+
         place = self.levers[sensor], self.mountings[sensor]
         moved = self.shoes[sensor].kinematics(time_s, *place)
         turned = Rotation.from_matrix(moved.rotation).as_quat()
@@ -90,8 +92,11 @@ def rigid_pair(walked: Walk, separation: float = 0.014) -> Walk:
     SimulationError
         When the separation is not between 1 mm and 0.3 m.
     """
-    if not 0.001 <= separation <= 0.3:
-        raise SimulationError(f"separation is {separation:g} m; allowed is 0.001 to 0.3 m")
+    least, most = SEPARATIONS_M
+    if not least <= separation <= most:
+        raise SimulationError(
+            f"separation is {separation:g} m; allowed is {least:g} to {most:g} m"
+        )
     shoe, lever, mounting = walked.shoes[1], walked.levers[1], walked.mountings[1]
     half = np.array([0.5 * separation, 0.0, 0.0])
     return replace(

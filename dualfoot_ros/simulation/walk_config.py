@@ -35,7 +35,10 @@ class Mount:
     def rotation_of(self, side: int) -> FloatArray:
         """Return the (3, 3) rotation sensor to shoe, yaw-pitch-roll; side +1 left, -1 right."""
         roll, pitch, yaw = np.radians(self.degrees)
-        return rotation_zyx(np.array([yaw * side]), np.array([pitch]), np.array([-roll * side]))[0]
+        rotation: FloatArray = rotation_zyx(
+            np.array([yaw * side]), np.array([pitch]), np.array([-roll * side])
+        )[0]
+        return rotation
 
 
 MOUNTS = {

@@ -138,11 +138,11 @@ def test_a_standstill_missed_because_of_the_gyro_says_so():
 @given(force=st.floats(0.0, 0.1), rate=st.floats(0.0, 0.01), seed=st.integers(0, 99))
 def test_a_coarse_sensor_that_is_noisy_is_no_stuck_one(force, rate, seed):
     series = resting([0, 1, 1], 10.0, noise=0.02, seed=seed)
-    for values, step, noise in (
+    for values, resolution, noise in (
         (series.specific_force, force, 0.02),
         (series.angular_rate, rate, 0.001),
     ):
-        step = min(step, 2.0 * noise)
+        step = min(resolution, 2.0 * noise)
         values[:] = np.round(values / step) * step if step > 1e-6 else values
     assert held_at_rest(series) == ()
 

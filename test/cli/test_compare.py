@@ -2,11 +2,6 @@
 
 import csv
 import json
-import os
-import signal
-import subprocess
-import sys
-import time
 
 import pytest
 
@@ -114,20 +109,3 @@ def test_a_repeated_walk_has_no_pressure_and_no_field_for_an_aid(bags, capsys, a
     arguments = ["--methods", "zupt", "--repeat", "2", "--set", f"aids.{aid}=true", "--jobs", "1"]
     assert main(["compare", bags[0], *arguments]) == 2
     assert f"aids.{aid} is on with --repeat 2; " in capsys.readouterr().err
-
-
-def test_an_interrupt_ends_it_cleanly_and_soon(bags):
-    arguments = ["--sweep", "kappa=0.3:0.8:0.01", "--methods", "mdmd_ukf", "--jobs", "2"]
-    process = subprocess.Popen(
-        [sys.executable, "-m", "dualfoot_ros", "compare", *bags, *arguments],
-        stderr=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    time.sleep(4.0)
-    assert process.poll() is None
-    os.killpg(process.pid, signal.SIGINT)
-    out, err = process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert (out, err) == ("", "dualfoot compare: interrupted\n")

@@ -22,8 +22,8 @@ def pair(tmp_path):
     return ["--left", left, "--right", right]
 
 
-def test_a_pair_of_exports_becomes_a_bag(tmp_path, pair, dualfoot):
-    done = dualfoot("import", *pair, "-o", "walk", cwd=tmp_path)
+def test_a_pair_of_exports_becomes_a_bag(tmp_path, pair, dualfoot_process):
+    done = dualfoot_process("import", *pair, "-o", "walk", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert "left: 300 samples, 5.0 s, 60.0 Hz" in done.stdout
     assert "wrote walk" in done.stdout

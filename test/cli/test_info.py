@@ -44,8 +44,8 @@ def test_the_words_tell_what_is_in_the_bag(bag, dualfoot):
         assert words in done.stdout
 
 
-def test_json_is_one_object_and_nothing_else(bag, dualfoot):
-    done = dualfoot("info", bag, "--json")
+def test_json_is_one_object_and_nothing_else(bag, dualfoot_process):
+    done = dualfoot_process("info", bag, "--json")
     assert (done.returncode, done.stderr) == (0, "")
     facts = json.loads(done.stdout)
     assert facts["usable"] is True

@@ -196,7 +196,9 @@ def test_an_existing_bag_is_kept_unless_told_otherwise(tmp_path, capsys):
 
 def test_help_has_examples_and_the_process_ends_with_zero():
     command = [sys.executable, "-m", "dualfoot_ros", "simulate", "--help"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120, cwd=ROOT)
+    done = subprocess.run(
+        command, check=False, capture_output=True, text=True, timeout=120, cwd=ROOT
+    )
     assert done.returncode == 0
     assert "dualfoot simulate -o walk" in done.stdout
 

@@ -1,4 +1,4 @@
-"""``dualfoot sync`` as a process: what it finds, what it writes, what it refuses."""
+"""``dualfoot sync``: what it finds, what it writes, what it refuses."""
 
 import json
 from dataclasses import replace
@@ -68,8 +68,8 @@ def write_with_log_times(path, series, times):
                 writer.write(topic, int(times[foot][k]), data)
 
 
-def test_the_aligned_bag_has_both_feet_on_one_clock(bag, dualfoot, tmp_path):
-    done = dualfoot("sync", bag, "-o", tmp_path / "out", "--json")
+def test_the_aligned_bag_has_both_feet_on_one_clock(bag, dualfoot_process, tmp_path):
+    done = dualfoot_process("sync", bag, "-o", tmp_path / "out", "--json")
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
     assert found["method"] == "motion"

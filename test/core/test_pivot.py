@@ -48,7 +48,7 @@ def test_eight_centimetres_behind_real_insteps_take_the_climb_of_level_walks_awa
         recording = import_recording(ImportOptions(sources=(path,)))
         for back, found in climbed.items():
             config = {"method": "zupt", "zupt.lever_back": back}
-            found += climbs(track(recording, TrackerConfig.from_mapping(config)))
+            found.extend(climbs(track(recording, TrackerConfig.from_mapping(config))))
     assert min(climbed[0.0]) > 0.15
     assert np.abs(climbed[0.08]).max() < 0.25
     assert np.sqrt(np.mean(np.square(climbed[0.08]))) < 0.15

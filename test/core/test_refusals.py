@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import pickle
+from copy import deepcopy
+from functools import cache
 
 import numpy as np
 import pytest
@@ -29,12 +31,19 @@ BASE = 10**18
 STEP = 10_000_000
 
 
-def aligned_tracker(engine: str | None = None) -> DualFootTracker:
-    tracker = DualFootTracker(QUICK, engine=engine or quick_engine().name)
+@cache
+def standing_tracker(engine: str) -> DualFootTracker:
+    tracker = DualFootTracker(QUICK, engine=engine)
     for pair in standing_samples(100):
         tracker.add(pair)
     assert tracker.phase == "standing"
     return tracker
+
+
+def aligned_tracker(engine: str | None = None) -> DualFootTracker:
+    """Return a tracker of its own that has just been aligned."""
+    made = standing_tracker(engine or quick_engine().name)
+    return deepcopy(made, {id(made._engine): made._engine})  # code is not copied
 
 
 def next_pair(tracker: DualFootTracker, **changes: float) -> ImuPair:

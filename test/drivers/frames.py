@@ -54,9 +54,10 @@ def cobs(plain):
     """Stuff as the paper tells it: cut at zeros, then in blocks of at most 254 bytes."""
     out = b""
     for part in plain.split(b"\0"):
-        while len(part) >= 254:
-            out, part = out + b"\xff" + part[:254], part[254:]
-        out += bytes([len(part) + 1]) + part
+        rest = part
+        while len(rest) >= 254:
+            out, rest = out + b"\xff" + rest[:254], rest[254:]
+        out += bytes([len(rest) + 1]) + rest
     return out + b"\0"
 
 

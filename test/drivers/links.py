@@ -6,6 +6,8 @@ import time
 import tty
 from pathlib import Path
 
+from processes import PATIENCE_S
+
 
 class Collector:
     """Takes what a source hands on."""
@@ -27,15 +29,15 @@ class Collector:
             self.states.append((state, reason))
             self._changed.notify_all()
 
-    def wait_for(self, condition, seconds=10.0):
+    def wait_for(self, condition):
         with self._changed:
-            return self._changed.wait_for(lambda: condition(self), seconds)
+            return self._changed.wait_for(lambda: condition(self), PATIENCE_S)
 
-    def wait_for_samples(self, count, seconds=10.0):
-        return self.wait_for(lambda c: len(c.samples) >= count, seconds)
+    def wait_for_samples(self, count):
+        return self.wait_for(lambda c: len(c.samples) >= count)
 
-    def wait_for_state(self, state, seconds=10.0):
-        return self.wait_for(lambda c: c.states and c.states[-1][0] is state, seconds)
+    def wait_for_state(self, state):
+        return self.wait_for(lambda c: c.states and c.states[-1][0] is state)
 
 
 class PluggedDevice:
@@ -62,12 +64,12 @@ class PluggedDevice:
 
 def held():
     """Return how many descriptors and threads this process has."""
-    return len(os.listdir("/proc/self/fd")), threading.active_count()
+    return len(list(Path("/proc/self/fd").iterdir())), threading.active_count()
 
 
-def settle(expected, seconds=5.0):
-    """Return what is held, once it is back at ``expected`` or time is up."""
-    deadline = time.monotonic() + seconds
+def settle(expected):
+    """Return what is held, once it is back at ``expected`` or patience is at its end."""
+    deadline = time.monotonic() + PATIENCE_S
     while held() != expected and time.monotonic() < deadline:
         time.sleep(0.01)
     return held()

@@ -3,6 +3,7 @@
 from collections import Counter
 
 import pytest
+from processes import PATIENCE_S
 
 from dualfoot_ros.drivers import BackoffConfig, Reader, State
 
@@ -71,7 +72,7 @@ def run(script):
     )
     reader.stopping = Clockless()
     reader.start()
-    reader._thread.join(10.0)
+    reader._thread.join(PATIENCE_S)
     assert not reader._thread.is_alive()
     return reader, came, said
 

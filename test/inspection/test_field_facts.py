@@ -9,9 +9,7 @@ from recording.samples import moving
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from dualfoot_ros.inspection.field_facts import field_facts
-from dualfoot_ros.inspection.finding import Severity
-from dualfoot_ros.inspection.findings import findings_of, recorded_fields
+from dualfoot_ros.inspection import Severity, field_facts, findings_of, recorded_fields
 from dualfoot_ros.recording import Recording, read_bag, write_bag
 
 STORE = get_typestore(Stores.ROS2_JAZZY)

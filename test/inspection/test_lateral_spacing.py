@@ -9,8 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dualfoot_ros.core import StanceEpochs, StancePassing, stance_passings
-from dualfoot_ros.inspection.exchanged_feet import walk_findings
-from dualfoot_ros.inspection.lateral_spacing import side_by_side
+from dualfoot_ros.inspection import side_by_side, walk_findings
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 from dualfoot_ros.simulation import SensorConfig, WalkConfig, simulate
 

@@ -13,9 +13,7 @@ from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 from dualfoot_ros.core import PressureSeries
-from dualfoot_ros.inspection.finding import Severity
-from dualfoot_ros.inspection.findings import findings_of
-from dualfoot_ros.inspection.pressure_facts import pressure_facts
+from dualfoot_ros.inspection import Severity, findings_of, pressure_facts
 from dualfoot_ros.recording import Recording, list_topics, read_bag, write_bag
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 

@@ -12,6 +12,7 @@ from dualfoot_ros.core import ImuSeries, PressureSeries
 from dualfoot_ros.inspection import Finding, FindingKind, Severity
 from dualfoot_ros.recording import Recording, write_bag
 from dualfoot_ros.simulation import WalkConfig, simulate
+from inspection.kinds import kinds_made_in
 
 
 def scaled(series, force=1.0, rate=1.0):
@@ -99,8 +100,8 @@ def test_rewording_every_sentence_changes_nothing_that_is_decided(bags, capsys, 
     make = Finding.__init__
     reworded = "etwas ganz anderes"
 
-    def in_other_words(self, kind, severity, text, remedy=""):
-        make(self, kind, severity, reworded, "und was zu tun ist")
+    def in_other_words(self, kind, severity, text, remedy="", about=""):
+        make(self, kind, severity, reworded, "und was zu tun ist", about)
 
     monkeypatch.setattr(Finding, "__init__", in_other_words)
     again, others = outcomes(bags, capsys)
@@ -113,9 +114,17 @@ def test_these_recordings_show_all_but_a_few_kinds(bags, capsys):
     decided, _ = outcomes({name: bag for name, bag in bags.items() if name != "exchanged"}, capsys)
     seen = {kind for _, _, kinds, _, _ in decided.values() for kind, _ in kinds}
     rare = {"late_standstill", "pressure_clock", "field_stamps", "swapped"}
-    assert seen | rare >= set(FindingKind)
+    assert seen | rare == kinds_made_in("inspection")
     severities = {severity for _, _, kinds, _, _ in decided.values() for _, severity in kinds}
     assert severities == set(Severity)
+
+
+def test_every_kind_of_finding_is_made_on_recordings_or_live():
+    assert kinds_made_in("inspection") | kinds_made_in("nodes") == set(FindingKind)
+
+
+def test_an_error_outranks_a_warning_and_a_warning_outranks_nothing():
+    assert Severity.ERROR.rank > Severity.WARNING.rank > 0
 
 
 def test_a_finding_without_a_remedy_is_its_text():

@@ -5,8 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from recording.samples import moving
 
-from dualfoot_ros.inspection.finding import FindingKind, Severity
-from dualfoot_ros.inspection.findings import findings_of, require_usable
+from dualfoot_ros.inspection import FindingKind, Severity, findings_of, require_usable
 from dualfoot_ros.inspection.stuck_values import find_stuck
 from dualfoot_ros.recording import Recording, RecordingError
 from dualfoot_ros.recording.importers import ImportOptions, import_recording

@@ -1,23 +1,38 @@
 """A context of its own for each test, a domain of its own for each worker, loopback only."""
 
+import fcntl
 import importlib.util
 import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
+from typing import TextIO
 
 import pytest
+from processes import PATIENCE_S, default_signals, environment
 
-os.environ["ROS_DOMAIN_ID"] = str(1 + os.getpid() % 100)
+
+def free_domain() -> tuple[int, TextIO]:
+    """Return a domain that no other run of these tests uses, as long as the file is open."""
+    for number in range(1, 102):
+        with suppress(OSError):  # it is another's, or locked
+            file = (Path(tempfile.gettempdir()) / f"dualfoot_ros_domain_{number}").open("w")
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return number, file
+    raise RuntimeError("all domains of ROS are in use")
+
+
+DOMAIN, LOCK = free_domain()
+os.environ["ROS_DOMAIN_ID"] = str(DOMAIN)
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 os.environ.setdefault("ROS_HOME", "/tmp/dualfoot_ros_test")
-
-ROOT = Path(__file__).resolve().parents[2]
-PATIENCE_S = 60.0
 
 if importlib.util.find_spec("rclpy") is None:
     collect_ignore_glob = ["test_*.py"]
@@ -56,10 +71,29 @@ class Bench:
             assert time.monotonic() < deadline, f"waited in vain: {said}"
             self._executor.spin_once(timeout_sec=0.02)
 
+    @staticmethod
+    def set_now(node, now_ns: int) -> None:
+        """Set the clock of a node that has ``use_sim_time``: what arrives has that time."""
+        from rclpy.clock import ClockType
+        from rclpy.time import Time
+
+        now = Time(nanoseconds=now_ns, clock_type=ClockType.ROS_TIME)
+        node.get_clock().set_ros_time_override(now)
+
     def close(self):
         self._executor.shutdown()
         for node in reversed(self._nodes):
             node.destroy_node()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def patient_demo() -> Iterator[None]:
+    """Let a run through the nodes that nothing is lost of take as long as the machine needs."""
+    from dualfoot_ros.nodes.demo import live_graph
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(live_graph, "PATIENCE_S", PATIENCE_S)
+        yield
 
 
 @pytest.fixture
@@ -95,18 +129,28 @@ def walk_bag(tmp_path_factory) -> Path:
     return write_bag(path, recording)
 
 
+@pytest.fixture(scope="session")
+def short_bag(walk_bag, tmp_path_factory) -> Path:
+    """Return the first 20 s of the walk, with truth."""
+    from dualfoot_ros.recording import read_bag, write_bag
+
+    whole = read_bag(walk_bag)
+    cut = replace(whole, left=whole.left[:1200], right=whole.right[:1200])
+    return write_bag(tmp_path_factory.mktemp("bags") / "short", cut)
+
+
 class Program:
     """An executable of the package as a process."""
 
     def __init__(self, module: str, *arguments: object):
-        paths = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", f"dualfoot_ros.nodes.{module}", *map(str, arguments)],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
-        )
+        with default_signals():
+            self._process = subprocess.Popen(
+                [sys.executable, "-m", f"dualfoot_ros.nodes.{module}", *map(str, arguments)],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                env=environment(),
+            )
         self._lines: list[str] = []
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()

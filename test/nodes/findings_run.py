@@ -13,7 +13,12 @@ from types import SimpleNamespace
 if sys.argv[1:] == ["reword"]:
     from nodes import rewording
 
-    rewording.install("dualfoot_ros.nodes", "dualfoot_ros.drivers", "dualfoot_ros.core.refusals")
+    rewording.install(
+        "dualfoot_ros.nodes",
+        "dualfoot_ros.drivers",
+        "dualfoot_ros.core.refusals",
+        "dualfoot_ros.inspection.findings",
+    )
 
 import numpy as np
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -103,12 +108,12 @@ class Stage:
             for describe in describers:
                 describe(status)
             begun = self._beginnings.select(status.findings, self.now_s)
-            findings = [(f.kind, f.about, f.level.hex(), f.logged) for f in status.findings]
+            findings = [(f.kind, f.about, f.severity) for f in status.findings]
             lines = graph.log.lines if graph else []
             self.outcome.append(
                 [findings, status.level.hex(), [f.kind for f in begun], len(lines)]
             )
-            self.texts += [f.text for f in status.findings]
+            self.texts += [f.sentence for f in status.findings]
         self.texts += lines
 
 

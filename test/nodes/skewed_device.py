@@ -1,18 +1,18 @@
-"""A device in a process of its own: ``python skewed_device.py PORT COUNT HOUR_S SKEW_PPM BURST``.
+"""A device with a clock that is off and runs wrong, on a bursty link, in a time that is made up.
 
-It samples every 5 ms, stamps with a clock that is off and runs wrong, and sends to UDP in bursts.
-First it prints when it took sample 0 by the host's wall clock, ns; the angular rate about x of a
-sample is its number times ``RATE``.
+The angular rate about x of a sample is its number times ``RATE``.
 """
 
 import socket
 import struct
-import sys
-import time
 
+import numpy as np
 from drivers import frames
 
+START_NS = 10**18  # when it takes sample 0, by the host's clock
 STEP_NS = 5_000_000
+OFFSET_S = 3600.0
+BURST = 20  # samples, 0.1 s
 RATE = 1e-3  # rad/s
 
 
@@ -23,22 +23,30 @@ def frame(k, time_ns):
     return frames.cobs(plain + struct.pack("<H", frames.crc16(plain, 0xFFFF)))
 
 
-def own_ns(k, offset_s, skew_ppm):
-    """Return what the device's clock shows when sample k is taken."""
-    return round(offset_s * 1e9 + k * STEP_NS * (1.0 + 1e-6 * skew_ppm))
+class SkewedDevice:
+    """Sends to the UDP port of an adapter that has ``use_sim_time``, and sets its clock."""
 
+    def __init__(self, bench, node, skew_ppm):
+        self._bench, self._node, self._skew_ppm = bench, node, skew_ppm
+        self._rng = np.random.default_rng(1)
+        self._sent = self._sent_bytes = 0
 
-def main(port, count, offset_s, skew_ppm, burst):
-    start_ns = time.time_ns()
-    print(start_ns, flush=True)
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
-        for first in range(0, int(count), int(burst)):
-            taken = range(first, first + int(burst))
-            ready = [frame(k, own_ns(k, float(offset_s), float(skew_ppm))) for k in taken]
-            time.sleep(max(0.0, (start_ns + taken[-1] * STEP_NS - time.time_ns()) * 1e-9))
-            for each in ready:
-                out.sendto(each, ("127.0.0.1", int(port)))
+    def _own_ns(self, k):
+        """Return what the device's clock shows when sample k is taken."""
+        return round(OFFSET_S * 1e9 + k * STEP_NS * (1.0 + 1e-6 * self._skew_ppm))
 
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])
+    def send(self, count):
+        """Send that many samples more, in bursts; each has arrived before the next is sent."""
+        source = self._node.device.source
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
+            for _ in range(count // BURST):
+                last_ns = START_NS + (self._sent + BURST - 1) * STEP_NS
+                self._bench.set_now(self._node, last_ns + round(self._rng.exponential(1e6)))
+                for k in range(self._sent, self._sent + BURST):
+                    message = frame(k, self._own_ns(k))
+                    out.sendto(message, ("127.0.0.1", source.transport.port))
+                    self._sent_bytes += len(message)
+                self._sent += BURST
+                self._bench.until(
+                    lambda: source.decoder.counters["bytes"] == self._sent_bytes, "a burst"
+                )

@@ -10,16 +10,18 @@ from dualfoot_ros.nodes import bringup, fusion
 from dualfoot_ros.recording import list_topics, read_bag
 
 
-def test_bringup_plays_a_bag_records_what_comes_of_it_and_ends(program, walk_bag, tmp_path):
+def test_bringup_plays_a_bag_records_what_comes_of_it_and_ends(program, short_bag, tmp_path):
+    """No queue is shorter than the bag, so nothing is lost however slow the machine is."""
     target = tmp_path / "result"
     running = program(
-        "bringup", "--ros-args", "-p", f"bag:={walk_bag}", "-p", f"record:={target}",
-        "-p", "play.rate:=4.0", "-r", "__ns:=/me", "-p", "engine:=compiled",
+        "bringup", "--ros-args", "-p", f"bag:={short_bag}", "-p", f"record:={target}",
+        "-p", "play.rate:=8.0", "-r", "__ns:=/me", "-p", "engine:=compiled",
+        "-p", "input.depth:=10000",
     )  # fmt: skip
     assert running.code() == 0, running.output
     topics = list_topics(target)
-    played = len(read_bag(walk_bag).left)
-    assert topics["/me/left/imu/data_raw"].messages > 0.5 * played
+    played = len(read_bag(short_bag).left)
+    assert topics["/me/left/imu/data_raw"].messages == played
     assert topics["/me/left/odometry"].messages > 0.5 * played
     assert topics["/me/odometry"].messages == topics["/me/left/odometry"].messages
     assert topics["/me/fusion/events"].messages > 10

@@ -27,6 +27,7 @@ from dualfoot_ros.timing import align
 
 from .samples import STANDING, STEP_NS, imu, status_values
 
+pytestmark = pytest.mark.usefixtures("clock")  # no input falls silent while the machine is busy
 FEET = ("left", "right")
 QUICK = {"engine": "compiled", "reports.period": 0.1, "input.depth": 20_000}
 
@@ -245,9 +246,10 @@ def test_a_bag_that_starts_again_resets_the_filter(bench):
     ],
     ids=["at first", "later"],
 )
-def test_one_foot_only_is_said_in_the_diagnostics(bench, first_s, level, words):
+def test_one_foot_only_is_said_in_the_diagnostics(bench, clock, first_s, level, words):
     walker = Walker(bench, {"input.silence": 1.0, "input.first": first_s})
     right = walker.fusion.streams.inputs["right"]
+    clock.move_on(1.5)
     bench.until(lambda: right.complaint(InputConfig(silence=1.0)), "silence of the right foot")
     for k in range(50):
         walker.send("left", k * STEP_NS)
@@ -322,17 +324,21 @@ def pose(x, y, yaw, frame_id="odom"):
     return message
 
 
-def test_initialpose_moves_and_turns_the_person(bench):
+def test_initialpose_moves_and_turns_the_person(bench, monkeypatch):
+    taken, take = [], FusionNode._set_pose
+    monkeypatch.setattr(
+        FusionNode, "_set_pose", lambda self, message: taken.append(take(self, message))
+    )
     walker = Walker(bench)
     publisher = walker.probe.create_publisher(PoseWithCovarianceStamped, "initialpose", 1)
     bench.until(publisher.get_subscription_count, "discovery")
     walker.stand(4.0)
-    publisher.publish(pose(float("nan"), 0.0, 0.0))
-    publisher.publish(pose(50.0, 50.0, 0.0, "elsewhere"))
-    for _ in range(20):
-        bench._executor.spin_once(timeout_sec=0.01)
-    publisher.publish(pose(10.0, -5.0, 1.0))
-    bench.until(lambda: walker.fusion.tracker._pose is not None, "the pose")
+    for number, each in enumerate(
+        (pose(float("nan"), 0.0, 0.0), pose(50.0, 50.0, 0.0, "elsewhere"), pose(10.0, -5.0, 1.0))
+    ):
+        assert walker.fusion.tracker._pose is None
+        publisher.publish(each)
+        bench.until(lambda n=number: len(taken) > n, "the pose")
     walker.stand(1.0, 10**12 + 4 * 10**9)
     person = walker.published()["person"][-1]
     position, quaternion = pose_of(person.pose.pose)

@@ -1,4 +1,5 @@
 import math
+import time
 
 import numpy as np
 import pytest
@@ -48,9 +49,9 @@ def test_samples_are_relayed_turned_scaled_and_renamed(bench):
 
 
 def test_the_stamp_can_be_the_time_of_arrival(bench):
+    before_ns = time.time_ns()
     got, node = relayed(bench, {"stamp": "arrival"}, [imu(7)])
-    now_ns = node.get_clock().now().nanoseconds
-    assert 0 <= now_ns - to_ns(got[0].header.stamp) < 60e9
+    assert before_ns <= to_ns(got[0].header.stamp) <= node.get_clock().now().nanoseconds
 
 
 def test_samples_that_are_not_finite_are_refused_and_counted(bench):
@@ -61,7 +62,7 @@ def test_samples_that_are_not_finite_are_refused_and_counted(bench):
     assert node.counters == {"relayed": 2, "not_finite": 1}
 
 
-def test_a_sensor_in_g_is_recognised_in_the_diagnostics(bench):
+def test_a_sensor_in_g_is_recognised_in_the_diagnostics(bench, clock):
     samples = [imu(k * STEP_NS, STANDING / 9.80665) for k in range(150)]
     reports = []
     bench.plain("listener").create_subscription(

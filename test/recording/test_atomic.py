@@ -71,7 +71,12 @@ def test_files_of_a_block_that_fails_leave_the_folder_as_it_was(tmp_path, there)
     if there:
         target.mkdir()
         (target / "old.tum").write_text("old")
-    with pytest.raises(ZeroDivisionError), new_files(target, replacing=("*.tum",)) as folder:
-        (folder / "new.tum").write_text("new")
-        raise ZeroDivisionError
+
+    def fail():
+        with new_files(target, replacing=("*.tum",)) as folder:
+            (folder / "new.tum").write_text("new")
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
     assert [p.name for p in tmp_path.rglob("*")] == (["report", "old.tum"] if there else [])

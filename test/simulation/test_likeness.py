@@ -19,7 +19,8 @@ def likeness(*arguments, **options):
 def test_the_documentation_shows_what_the_program_prints(dual_feet):
     run = likeness(dual_feet)
     assert run.returncode == 0, run.stderr
-    documented = (ROOT / "docs" / "simulation.md").read_text(encoding="utf-8").splitlines()
+    page = ROOT / "docs" / "explanation" / "simulation.md"
+    documented = page.read_text(encoding="utf-8").splitlines()
     for line in run.stdout.splitlines():
         name = line.split("|")[1]
         there = next(each for each in documented if each.startswith(f"|{name}|"))

@@ -33,4 +33,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Calibrate ``args.what``; return the exit code."""
-    return WHAT[args.what].run(args)
+    code: int = WHAT[args.what].run(args)
+    return code

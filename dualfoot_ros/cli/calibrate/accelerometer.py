@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...core import STANDARD_GRAVITY
-from . import common as common
+from . import common
 
 if TYPE_CHECKING:
     from ...calibration import AccelerometerFit, CrossValidation, Segment
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     Result = tuple[AccelerometerFit, list[Segment], CrossValidation]
 
 HELP = "bias, scale and misalignment of accelerometers held still in six or more attitudes"
+GRAVITY = (9.7, 9.9)  # m/s^2, anywhere on Earth
 FIRST = "  dualfoot calibrate accelerometer A*.csv -o right.yaml\n"
 EXAMPLES = f"""\
 examples:
@@ -54,8 +55,10 @@ def run(args: argparse.Namespace) -> int:
     """Fit, write, print; return the exit code."""
     from ...calibration import CalibrationError
 
-    if not 9.7 <= args.gravity <= 9.9:
-        raise CalibrationError(f"--gravity is {args.gravity:g}; allowed is 9.7 to 9.9 m/s^2")
+    if not GRAVITY[0] <= args.gravity <= GRAVITY[1]:
+        raise CalibrationError(
+            f"--gravity is {args.gravity:g}; allowed is {GRAVITY[0]:g} to {GRAVITY[1]:g} m/s^2"
+        )
     calibration = common.existing(args.output)
     loaded = common.load(args)
     results = {name: _fit(name, sources, args) for name, sources in loaded.items()}

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import common as common
+from . import common
 
 if TYPE_CHECKING:
     from ...calibration import GyroFit
@@ -108,7 +108,7 @@ def _write_parameters(path: Path, fits: dict[str, GyroFit], noise: dict[str, flo
         )
     remarks = [
         f"Noise at rest, from the Allan deviation of {seconds:.0f} s ('dualfoot calibrate gyro').",
-        "A lower bound: walking adds scale factors and shocks, see docs/calibration.md.",
+        "A lower bound: walking adds scale factors and shocks (docs/explanation/calibration.md).",
     ]
     rounded = {name: float(f"{value:.3g}") for name, value in noise.items()}
     write_text(path, parameter_text(rounded, remarks))

@@ -16,7 +16,7 @@ from ..arguments import (
     load_usable,
     tracker_config,
 )
-from . import common as common
+from . import common
 
 if TYPE_CHECKING:
     from ...calibration import SpacingFit

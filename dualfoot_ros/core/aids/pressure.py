@@ -18,12 +18,14 @@ RANGE_PA = (1e4, 2e5)  # beyond these it is no air a person breathes, or not in 
 
 def pressure_height(pascal: float) -> float:
     """Return the height in m above the 101 325 Pa level of the ICAO Standard Atmosphere."""
-    return SCALE_M * (1.0 - float(pascal / SEA_LEVEL_PA) ** EXPONENT)
+    height_m: float = SCALE_M * (1.0 - float(pascal / SEA_LEVEL_PA) ** EXPONENT)
+    return height_m
 
 
 def height_pressure(height_m: float) -> float:
     """Return the pressure in Pa at a height in m of the ICAO Standard Atmosphere."""
-    return SEA_LEVEL_PA * float(1.0 - height_m / SCALE_M) ** (1.0 / EXPONENT)
+    pascal: float = SEA_LEVEL_PA * float(1.0 - height_m / SCALE_M) ** (1.0 / EXPONENT)
+    return pascal
 
 
 class PressureLog(Log[float]):

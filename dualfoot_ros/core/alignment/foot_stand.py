@@ -17,6 +17,7 @@ from ..samples.series import FloatArray
 from .window import SLIDES, Window
 
 MEMORY_S = 30.0  # what is older than that fades: biases drift
+UPRIGHT = 0.95  # cosine to the vertical, from which an axis has no heading
 FEWEST = 3.0  # independent windows below which their scatter alone says too little
 
 
@@ -46,7 +47,7 @@ class FootStandstill:
     def levelling(self) -> FloatArray:
         """Return R_nb (3, 3) with roll and pitch from gravity and the body x axis heading zero."""
         up = self.specific_force / math.sqrt(float(self.specific_force @ self.specific_force))
-        axis = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.95 else np.array([0.0, 0.0, -up[0]])
+        axis = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < UPRIGHT else np.array([0.0, 0.0, -up[0]])
         x = axis - up * float(axis @ up)
         x /= math.sqrt(float(x @ x))
         return np.array([x, np.cross(up, x), up])
@@ -82,9 +83,8 @@ class FootStand:
         self.count = 0
         self._weight = self._squares = 0.0
         self._mean, self._spread = np.zeros(6), np.zeros(6)
-        self._within = np.zeros(
-            2
-        )  # variance of the windows' means (rate, force) by what is in them
+        # variance of the windows' means (rate, force) by what happens within them
+        self._within = np.zeros(2)
         self._newest: Window | None = None
 
     def add(self, window: Window) -> None:

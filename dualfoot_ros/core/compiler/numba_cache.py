@@ -19,7 +19,7 @@ def keep_in(dispatcher: Any, directory: Path) -> None:
         """Tells numba where the code of one function is kept."""
 
         def __init__(self, function: Any) -> None:
-            self._name = function.__qualname__
+            self._name: str = function.__qualname__
 
         @classmethod
         def from_function(cls, function: Any, _file: str) -> Locator:
@@ -47,4 +47,4 @@ def keep_in(dispatcher: Any, directory: Path) -> None:
 
         _impl_class = Implementation
 
-    dispatcher._cache = Cache(dispatcher.py_func)
+    dispatcher._cache = Cache(dispatcher.py_func)  # noqa: SLF001  (numba has no other way)

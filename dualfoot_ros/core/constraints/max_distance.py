@@ -15,7 +15,7 @@ import numpy as np
 from ..joint_estimate import JointEstimate, Outcome, relative_row
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit
-from .distance_solvers import exact, norm, quadratic
+from .distance_solvers import LEAST_VARIANCE, exact, norm, quadratic
 from .method import Gait, Method, Request
 
 
@@ -62,7 +62,7 @@ class MaxDistance(Method):
         distance = norm(r)
         variance = quadratic(r, p) / distance**2
         s, error = variance + std * std, distance - bound
-        accepted, after = error > 0.0 and variance > 1e-12, None
+        accepted, after = error > 0.0 and variance > LEAST_VARIANCE, None
         if accepted:
             direction, push, noise = exact(r, p, bound, std)
             estimate.update([relative_row(direction)], [push], [noise])

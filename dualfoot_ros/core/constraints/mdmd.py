@@ -98,7 +98,8 @@ class MdmdCkf(AtMinimumDistance):
 def square_root(covariance: FloatArray) -> FloatArray:
     """Return S (n, n) with S S' = covariance, negative eigenvalues taken as zero."""
     values, vectors = np.linalg.eigh(covariance)
-    return vectors * np.sqrt(np.clip(values, 0.0, None))
+    root: FloatArray = vectors * np.sqrt(np.clip(values, 0.0, None))
+    return root
 
 
 def observe_distance(

@@ -7,7 +7,7 @@ is that of the method and whose object is a class derived from :class:`Method`.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from importlib.metadata import EntryPoint, entry_points
 
 from ..errors import ConfigError
@@ -75,14 +75,20 @@ class MethodRegistry(Mapping[str, type[Method]]):
     def _bring(self, methods: dict[str, type[Method]], point: EntryPoint) -> None:
         """Add a method of another package; warn of one that cannot be used."""
         try:
-            method = checked(point.load(), point.name)
-            if point.name in methods:
-                raise ConfigError("there is a method of that name already")
+            method = _load(point, methods)
         except Exception as error:  # whatever happens in the code of others
             text = f"method '{point.name}' of {point.value} is not used: {error}"
             warnings.warn(text, stacklevel=2)
         else:
             methods[point.name] = method
+
+
+def _load(point: EntryPoint, taken: Container[str]) -> type[Method]:
+    """Return the method of an entry point, whose name must not be ``taken``."""
+    method = checked(point.load(), point.name)
+    if point.name in taken:
+        raise ConfigError("there is a method of that name already")
+    return method
 
 
 def checked(method: object, name: str) -> type[Method]:

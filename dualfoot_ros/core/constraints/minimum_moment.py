@@ -16,7 +16,7 @@ import numpy as np
 from ..joint_estimate import JointEstimate, Outcome
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit, Passing, Reason
-from .distance_solvers import Matrix, Vector, norm, quadratic
+from .distance_solvers import LEAST_VARIANCE, Matrix, Vector, norm, quadratic
 from .learnt_spacing import Spacing
 from .method import Gait, Method, Request, StancePhase
 
@@ -112,7 +112,7 @@ class AtMinimumDistance(Method):
         s = variance + self.config.distance_std**2
         error = distance - target
         nis = error * error / s if s > 0.0 else math.nan
-        accepted = error > 0.0 and variance > 1e-12
+        accepted = error > 0.0 and variance > LEAST_VARIANCE
         moved, distance_after, reason = [0.0, 0.0, 0.0], None, None
         if accepted:
             before = estimate.relative_position()

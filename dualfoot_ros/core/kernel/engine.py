@@ -45,12 +45,12 @@ class Engine:
 
 def kernel_functions() -> dict[str, types.FunctionType]:
     """Return every function of the kernel by name."""
-    functions = {}
-    for module in MODULES:
-        for name, item in vars(module).items():
-            if inspect.isfunction(item) and item.__module__ == module.__name__:
-                functions[name] = item
-    return functions
+    return {
+        name: item
+        for module in MODULES
+        for name, item in vars(module).items()
+        if inspect.isfunction(item) and item.__module__ == module.__name__
+    }
 
 
 def interpreted() -> Engine:

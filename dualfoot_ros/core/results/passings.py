@@ -24,6 +24,7 @@ from .trajectory import FootTrajectory, Trajectory, stance_bounds
 
 LEAST_SWING_M = 0.3
 LONGEST_STANCE_S = 1.2  # a longer stance is no step
+SAME_WAY = 0.5  # length of the mean of two unit vectors that do not go opposite ways
 MID_STANCE = 0.5  # share of the stance at which the other foot goes by
 
 
@@ -167,7 +168,7 @@ def _passing(
         ways += [] if own is None else [own]
     forward = np.mean(ways, axis=0)
     size = float(np.linalg.norm(forward))
-    if size < 0.5:  # the feet went opposite ways
+    if size < SAME_WAY:
         return
     places = tracks[0].position[moment, :2], tracks[1].position[moment, :2]
     middle = 0.5 * (places[0] + places[1])

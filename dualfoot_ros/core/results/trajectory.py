@@ -87,7 +87,8 @@ def stance_bounds(stance: np.ndarray) -> np.ndarray:
     return np.flatnonzero(padded[1:] != padded[:-1]).reshape(-1, 2)
 
 
-def stance_middles(stance: np.ndarray) -> np.ndarray:
+def stance_middles(stance: np.ndarray) -> IntArray:
     """Return the (M,) middle index of every stance."""
     bounds = stance_bounds(stance)
-    return (bounds[:, 0] + bounds[:, 1] - 1) // 2
+    middles: IntArray = (bounds[:, 0] + bounds[:, 1] - 1) // 2
+    return middles

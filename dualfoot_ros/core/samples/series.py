@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,7 +62,7 @@ class ImuSeries:
         """Return the number of samples."""
         return len(self.stamp_ns)
 
-    def __getitem__(self, index: slice | NDArray) -> ImuSeries:
+    def __getitem__(self, index: slice | NDArray[Any]) -> ImuSeries:
         """Return the part of the series that a slice or a mask selects."""
         field = self.magnetic_field
         return replace(

@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
-from ...core import Parameters, Refusal, parameter
-from ..sample import Sample, Vector, is_finite
+from ...core import Parameters, Refusal, Vector, parameter
+from ..sample import Sample, is_finite
 
 REFUSALS = (
     Refusal.GARBAGE_BYTES,

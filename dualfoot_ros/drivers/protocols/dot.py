@@ -11,8 +11,8 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, Refusal, parameter
-from ..sample import Sample, Vector, scaled
+from ...core import DEGREE, Refusal, Vector, parameter
+from ..sample import Sample, scaled
 from .decoder import FieldConfig, append_if_finite
 
 STAMP = struct.Struct("<I")

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, Parameters, Refusal, parameter
-from ..sample import Sample, Vector, scaled
+from ...core import DEGREE, Parameters, Refusal, Vector, parameter
+from ..sample import Sample, scaled
 from .decoder import PacketCounter, append_if_finite
 from .framing import DelimitedFramer
 

@@ -1,4 +1,4 @@
-"""Frame for boards of one's own; ``docs/mcu_frame.md`` describes it, with an encoder in C.
+"""Frame for boards of one's own, described in ``docs/reference/mcu_frame.md``; encoder in C there.
 
 COBS, terminated by a zero.  Inside, little-endian: kind u8, counter u16, device time u32 in
 microseconds, six values, what the flags announce, CRC-16/CCITT-FALSE over all before it.
@@ -11,8 +11,8 @@ from binascii import crc_hqx
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import Parameters, Refusal
-from ..sample import Sample, Vector, scaled
+from ...core import Parameters, Refusal, Vector
+from ..sample import Sample, scaled
 from . import cobs
 from .decoder import PacketCounter, append_if_finite
 from .framing import DelimitedFramer

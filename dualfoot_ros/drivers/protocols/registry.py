@@ -25,7 +25,9 @@ class Format(NamedTuple):
 
 
 FORMATS: dict[str, Format] = {
-    "mcu": Format(McuDecoder, McuConfig, "frame for boards of one's own, docs/mcu_frame.md"),
+    "mcu": Format(
+        McuDecoder, McuConfig, "frame for boards of one's own, docs/reference/mcu_frame.md"
+    ),
     "ximu3": Format(XImu3Decoder, XImu3Config, "x-io x-IMU3, ASCII and binary"),
     "witmotion": Format(WitMotionDecoder, WitMotionConfig, "WitMotion serial output"),
     "xbus": Format(XbusDecoder, XbusConfig, "Xsens MTi, MTData2"),

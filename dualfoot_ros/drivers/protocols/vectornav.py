@@ -13,8 +13,8 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import lru_cache
 
-from ...core import Parameters, Refusal, parameter
-from ..sample import Sample, Vector, scaled
+from ...core import Parameters, Refusal, Vector, parameter
+from ..sample import Sample, scaled
 from .decoder import append_if_finite
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
 

@@ -12,8 +12,8 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, STANDARD_GRAVITY, Parameters, Refusal, parameter
-from ..sample import Sample, Vector, scaled
+from ...core import DEGREE, STANDARD_GRAVITY, Parameters, Refusal, Vector, parameter
+from ..sample import Sample, scaled
 from .decoder import append_if_finite
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
 
@@ -153,4 +153,5 @@ def _read_milliseconds(content: bytes) -> int | None:
         stamp = datetime.datetime(2000 + year, month, day, hour, minute, second)
     except ValueError:
         return None
-    return int((stamp - EPOCH).total_seconds()) * 1000 + millisecond
+    milliseconds: int = int((stamp - EPOCH).total_seconds()) * 1000 + millisecond
+    return milliseconds

@@ -13,8 +13,8 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ...core import Refusal
-from ..sample import Sample, Vector, scaled
+from ...core import Refusal, Vector
+from ..sample import Sample, scaled
 from .decoder import FieldConfig, PacketCounter, append_if_finite
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
 
@@ -108,7 +108,7 @@ class XbusDecoder:
 
 def probe(buffer: bytearray, at: int) -> int:
     """Look at a message that may start at ``at``, as :data:`framing.Probe` says."""
-    head = buffer[at : at + 6]
+    head = bytes(buffer[at : at + 6])
     if head[:1] not in (b"", b"\xfa") or (len(head) > 1 and head[1] not in BUS_IDS):
         return NO_FRAME
     if len(head) < 4 or (head[3] == EXTENDED and len(head) < 6):

@@ -13,8 +13,8 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, STANDARD_GRAVITY, Refusal
-from ..sample import Sample, Vector, scaled
+from ...core import DEGREE, STANDARD_GRAVITY, Refusal, Vector
+from ..sample import Sample, scaled
 from .decoder import FieldConfig, append_if_finite
 from .framing import DelimitedFramer
 

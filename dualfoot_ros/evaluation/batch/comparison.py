@@ -71,7 +71,7 @@ class Entry:
 
     def to_dict(self) -> dict[str, Any]:
         """Return all figures as plain values."""
-        return plain(
+        figures: dict[str, Any] = plain(
             {
                 "bag": self.bag,
                 "case": self.case.label,
@@ -82,6 +82,7 @@ class Entry:
                 "run_s": self.run_s,
             }
         )
+        return figures
 
 
 def compare_one(job: Job) -> Entry:
@@ -96,7 +97,7 @@ def compare_one(job: Job) -> Entry:
     _check_repeatable(job)
     topics = job.left_topic, job.right_topic
     recording, findings = _read(job.bag, topics, job.allow_nan, job.repeat)
-    _load_compiled()
+    warm_up()
     options = RunOptions(alignment=job.options, check_feet=False)
     evaluation = run_checked(recording, job.case.config, options, findings)
     return Entry(
@@ -137,8 +138,11 @@ def _read(
 
 
 @lru_cache(maxsize=1)
-def _load_compiled() -> None:
-    """Load the compiled kernel, so that loading it counts in no run time."""
+def warm_up() -> None:
+    """Load or make the compiled kernel in this process.
+
+    So it does not count in anyone's run time, and no other process is started to make it.
+    """
     try:
         compiled()
     except ImportError:

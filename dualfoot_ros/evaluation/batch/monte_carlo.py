@@ -39,6 +39,7 @@ from ..frames.gauge import Truth, overlap
 from ..frames.yaw_transform import YawTransform
 from ..metrics.nees import attitude_error, nees
 from ..track import track
+from .comparison import warm_up
 
 POINTS = 40
 CONFIDENCE = 0.95
@@ -85,6 +86,7 @@ def score_walk(job: WalkJob) -> WalkScores:
     barometer = BarometerConfig() if aids.barometer else None
     magnetometer = MagnetometerConfig() if aids.magnetic_heading else None
     made = simulate(job.walk, job.sensor, None, job.seed, barometer, magnetometer)
+    warm_up()
     run = track(Recording(made.left, made.right, pressure=made.pressure), job.config)
     nis = _nis(run)
     run, truth = overlap(run, (made.left_truth, made.right_truth))
@@ -162,7 +164,8 @@ def points(middles: IntArray, first: int) -> IntArray:
     """Return (POINTS,) middles of stances at equal steps from epoch ``first`` to the last."""
     later = middles[middles >= first]
     wanted = np.linspace(first, later[-1], POINTS)
-    return later[np.abs(later[:, None] - wanted).argmin(axis=0)]
+    chosen: IntArray = later[np.abs(later[:, None] - wanted).argmin(axis=0)]
+    return chosen
 
 
 def _nis(run: Trajectory) -> dict[str, FloatArray]:

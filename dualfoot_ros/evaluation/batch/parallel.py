@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
-import signal
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
+from functools import partial
 from typing import Generic, TypeVar
 
 from ...core import DualFootError
+from .workers import Workers
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -43,27 +42,16 @@ def run_each(
 
     With one job nothing leaves this process.  An input that is refused (a DualFootError, or an
     OSError) becomes a :class:`Failure`; any other exception ends everything.  When the caller
-    stops early, or is interrupted, what has not started is given up.
+    stops early, or a signal ends this process, the other processes end at once.
     """
+    attempt = partial(_attempt, function)
     if jobs <= 1 or len(items) <= 1:
         for index, item in enumerate(items):
-            yield Done(index, _attempt(function, item))
+            yield Done(index, attempt(item))
         return
-    # spawn: a process forked from one with threads (a progress bar) may hang
-    context = multiprocessing.get_context("spawn")
-    workers = min(jobs, len(items))
-    pool = ProcessPoolExecutor(workers, mp_context=context, initializer=_leave_signals)
-    try:
-        waiting = {pool.submit(_attempt, function, item): k for k, item in enumerate(items)}
-        for future in as_completed(waiting):
-            yield Done(waiting[future], future.result())
-    finally:
-        pool.shutdown(wait=True, cancel_futures=True)
-
-
-def _leave_signals() -> None:
-    """Let the parent attend to the terminal's Ctrl-C."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with Workers(attempt, min(jobs, len(items))) as workers:
+        for index, result in workers.each(items):
+            yield Done(index, result)
 
 
 def _attempt(function: Callable[[Item], Result], item: Item) -> Result | Failure:

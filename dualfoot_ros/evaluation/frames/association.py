@@ -43,7 +43,7 @@ def truth_at(stamp_ns: IntArray, truth: PoseSeries) -> PoseSeries:
 
 def within(stamp_ns: IntArray, truth: PoseSeries) -> np.ndarray:
     """Return the (N,) mask of the stamps between the first and the last of the truth."""
-    inside = (stamp_ns >= truth.stamp_ns[0]) & (stamp_ns <= truth.stamp_ns[-1])
+    inside: np.ndarray = (stamp_ns >= truth.stamp_ns[0]) & (stamp_ns <= truth.stamp_ns[-1])
     if inside.sum() < 2:
         raise EvaluationError(
             f"the truth covers {truth.stamp_ns[0]} to {truth.stamp_ns[-1]} ns and the estimate "
@@ -95,4 +95,5 @@ class Footfalls:
         way = np.concatenate([[0.0], np.cumsum(steps)])
         origin = int(stamp_ns[0])
         time = seconds(stamp_ns, origin)
-        return np.interp(time, time[self.middle], way)
+        walked: FloatArray = np.interp(time, time[self.middle], way)
+        return walked

@@ -24,6 +24,7 @@ import numpy as np
 from ...core import EvaluationError, FloatArray, FootTrajectory
 
 FIRST_STRIDES_M = 4.8
+LEAST_WAY_M = 0.1  # that a foot goes in a stride
 """Length of the start over which ``first_strides`` fits the heading (five floor markers)."""
 
 
@@ -119,7 +120,7 @@ def first_strides(
         first = len(r) if near.all() else int(np.argmin(near))
         from_e.append((e - e[0])[:first])
         from_r.append((r - r[0])[:first])
-    if not any(np.abs(r[:, :2]).max() > 0.1 for r in from_r):
+    if not any(np.abs(r[:, :2]).max() > LEAST_WAY_M for r in from_r):
         raise EvaluationError(
             f"no stride within the first {length:g} m of the tracked walk, so nothing shows its "
             "heading for first_strides; align with umeyama4"

@@ -10,6 +10,7 @@ import numpy as np
 from ...core import FloatArray, FootTrajectory, PoseSeries
 from ..frames.association import Footfalls
 
+NO_LENGTH = 1e-6
 MARKS_M = 200.0
 """Errors are given at every 200 m of the way, as in Table III of Liu et al. 2023."""
 
@@ -141,4 +142,4 @@ def rms(values: FloatArray) -> float:
 
 def percent(part: float, whole: float) -> float | None:
     """Return ``part`` in percent of ``whole``, or None where the whole is zero."""
-    return 100.0 * part / whole if whole > 1e-6 else None
+    return 100.0 * part / whole if whole > NO_LENGTH else None

@@ -58,4 +58,5 @@ def closure(
 
 
 def _gap(stood: FloatArray) -> FloatArray:
-    return (stood[-1] - stood[0])[:2]
+    gap: FloatArray = (stood[-1] - stood[0])[:2]
+    return gap

@@ -1,7 +1,7 @@
 """Heading errors of both feet, split into a common part and a difference.
 
 A constraint between the feet can remove only the difference; the common part stays (see
-``docs/evaluation.md``).  So the two are reported separately everywhere.
+``docs/reference/metrics.md``).  So the two are reported separately everywhere.
 """
 
 from __future__ import annotations

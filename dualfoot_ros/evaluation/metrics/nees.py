@@ -26,7 +26,8 @@ def nees(error: FloatArray, covariance: FloatArray) -> FloatArray:
     """
     variance, axes = np.linalg.eigh(covariance)
     along = np.einsum("nji,nj->ni", axes, error)
-    return np.mean(along**2 / np.maximum(variance, SMALLEST_STD**2), axis=1)
+    nees: FloatArray = np.mean(along**2 / np.maximum(variance, SMALLEST_STD**2), axis=1)
+    return nees
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,10 @@ def attitude_error(estimate: FloatArray, truth: FloatArray) -> FloatArray:
     """Return (N, 3) rotation vectors, fixed navigation axes, from the truth to the estimate."""
     from scipy.spatial.transform import Rotation
 
-    return (Rotation.from_quat(estimate) * Rotation.from_quat(truth).inv()).as_rotvec()
+    error: FloatArray = (
+        Rotation.from_quat(estimate) * Rotation.from_quat(truth).inv()
+    ).as_rotvec()
+    return error
 
 
 def _mean(error: FloatArray, covariance: FloatArray, at: IntArray) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -44,7 +45,7 @@ def walk_table(run: Evaluation, title: str) -> Table:
 
 def number(value: float | None, digits: int = 2) -> str:
     """Return a figure as text, a dash where there is none."""
-    return "-" if value is None or value != value else f"{value:.{digits}f}"
+    return "-" if value is None or math.isnan(value) else f"{value:.{digits}f}"
 
 
 def _walk(run: Evaluation) -> Iterator[Row]:

@@ -5,10 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from ...core import Refusal
-from ...drivers import SensorCheck
+from ...drivers import SensorCheck, SensorFault
+from ...inspection import Finding, FindingKind, Severity
 from ..ros.diagnostics import Rates
-from ..ros.status import WARN, Described, Finding, FindingKind, Status
+from ..ros.status import Described, Status
 from .losses import LossReport
+
+KINDS = {
+    SensorFault.STUCK_SENSOR: FindingKind.STUCK,
+    SensorFault.STUCK_AXIS: FindingKind.STUCK,
+    SensorFault.WRONG_RATE: FindingKind.WRONG_RATE,
+    SensorFault.CLIPPED_FORCE: FindingKind.CLIPPING,
+    SensorFault.CLIPPED_RATE: FindingKind.CLIPPING,
+}
 
 
 class AdapterReport:
@@ -41,7 +50,7 @@ class AdapterReport:
         if rates[Refusal.NOT_FINITE] > 0:
             count = self._counters[Refusal.NOT_FINITE]
             text = f"samples are refused: {Refusal.NOT_FINITE.words} ({count} so far)"
-            status.note(Finding(FindingKind.REFUSED_SAMPLES, WARN, text))
+            status.note(Finding(FindingKind.NOT_FINITE, Severity.WARNING, text))
         for fault, text in self._check.findings:
-            status.note(Finding(FindingKind.SENSOR_FAULT, WARN, text, fault, logged=True))
+            status.note(Finding(KINDS[fault], Severity.WARNING, text, about=fault))
         self._losses.describe(self._outcomes(), status)

@@ -60,7 +60,8 @@ class Conversion:
 
     def field(self, tesla: Sequence[float]) -> FloatArray:
         """Return a magnetic field (3,) turned to forward-left-up."""
-        return self._rotation @ np.array(tesla)
+        field: FloatArray = self._rotation @ np.array(tesla)
+        return field
 
     def convert_covariances(self, message: Imu) -> None:
         """Convert covariances and orientation of ``message`` to the new axes and units.
@@ -82,4 +83,5 @@ class Conversion:
         if self._same_axes or received[0] < 0.0:
             return received
         turned = self._rotation @ received.reshape(3, 3) @ self._rotation.T
-        return (scale * scale * turned).ravel()
+        converted: FloatArray = (scale * scale * turned).ravel()
+        return converted

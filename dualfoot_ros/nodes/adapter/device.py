@@ -12,9 +12,10 @@ from rclpy.node import Node
 
 from ...core import FloatArray, Refusal, SourceError, Vector
 from ...drivers import CheckConfig, Sample, Source, State
+from ...inspection import Finding, FindingKind, Severity
 from ...settings import InputConfig
 from ...timing import CounterConfig, Unwrapper
-from ..ros.status import ERROR, OK, WARN, Finding, FindingKind, Status
+from ..ros.status import Status
 from ..ros.watched_input import silence
 from .losses import REFUSED, in_words, increases
 
@@ -38,6 +39,7 @@ class Device:
         config: InputConfig,
         take: Take,
         ended: Callable[[SourceError | None], None],
+        *,
         begin: Callable[[threading.Event], None] | None = None,
     ) -> None:
         """Put it together; :meth:`start` starts.
@@ -53,7 +55,7 @@ class Device:
         self.temperature = math.nan
         self._unwrapper: Unwrapper | None = None
         self._last_s = time.monotonic()
-        self._logged_level = OK
+        self._logged_rank = 0
         self._state = State.STOPPED
         self._at_last: dict[str, int] = {}  # the refusals, when the last good sample came
         self._returns: dict[str, int] = {}
@@ -140,7 +142,7 @@ class Device:
         if self.without_time:
             status.values["without_time"] = self.without_time
             text = "the device sends no time: its samples get that of their arrival"
-            status.note(Finding(FindingKind.NO_DEVICE_TIME, WARN, text))
+            status.note(Finding(FindingKind.NO_DEVICE_TIME, Severity.WARNING, text))
         self._describe_senders(status)
         self._describe_silence(status)
 
@@ -157,11 +159,9 @@ class Device:
         self._returns, self._sent = returns, samples
         if len(back) > 1:
             names = ", ".join(f"{name} ({sent.get(name, 0)} samples)" for name in sorted(back))
-            text = (
-                f"{len(back)} devices send to one port and their samples mix: {names}; give each "
-                "a port of its own, or list the address of the right one in peers"
-            )
-            status.note(Finding(FindingKind.MIXED_SENDERS, WARN, text, logged=True))
+            text = f"{len(back)} devices send to one port and their samples mix: {names}"
+            remedy = "give each a port of its own, or list the address of the right one in peers"
+            status.note(Finding(FindingKind.MIXED_SENDERS, Severity.WARNING, text, remedy))
 
     def _list_strangers(self) -> str:
         strangers = dict(self.source.transport.strangers)
@@ -176,32 +176,33 @@ class Device:
     def _describe_silence(self, status: Status) -> None:
         complaint = self.complaint()
         if complaint is None:
-            self._logged_level = OK
+            self._logged_rank = 0
             return
         status.note(complaint)
         if complaint.kind is FindingKind.LINK_DOWN:
             return  # it was logged when it went down
-        if complaint.level > self._logged_level:
-            self._node.get_logger().warning(complaint.text)
-            self._logged_level = complaint.level
+        if complaint.severity.rank > self._logged_rank:
+            self._node.get_logger().warning(complaint.sentence)
+            self._logged_rank = complaint.severity.rank
 
     def complaint(self) -> Finding | None:
         """Return why no sample comes, or None when samples do."""
         state, reason, uri = self.source.state, self.source.reader.reason, self.source.uri
         who = f"source '{uri}' is {state.value}"
         if state in (State.WAITING, State.FAILED):
-            return Finding(FindingKind.LINK_DOWN, ERROR, f"{who}: {reason}")
+            return Finding(FindingKind.LINK_DOWN, Severity.ERROR, f"{who}: {reason}")
         silent_s = time.monotonic() - self._last_s
         if state not in (State.CONNECTING, State.CONNECTED) or silent_s < self._config.silence:
             return None
         counters = self.source.decoder.counters
         refused = increases(self._count_refused(), self._at_last)
         if refused[Refusal.FOREIGN]:
-            return Finding(FindingKind.STRANGERS_ONLY, ERROR, self._describe_strangers())
+            text = self._describe_strangers()
+            return Finding(FindingKind.STRANGERS_ONLY, Severity.ERROR, text)
         reasons = in_words(refused)
         if reasons and (counters["samples"] or counters[Refusal.NOT_FINITE]):
             text = f"{who} but nothing that came can be used for {silent_s:.1f} s: {reasons}"
-            return Finding(FindingKind.NOTHING_USABLE, ERROR, text)
+            return Finding(FindingKind.NOTHING_USABLE, Severity.ERROR, text)
         if counters["samples"] or not counters["bytes"]:
             return silence(who, counters["samples"] > 0, silent_s, self._config)
         text = (
@@ -209,7 +210,7 @@ class Device:
             "check format and baud, and what the device is set to send"
         )
         text += f" ({reasons})" if reasons else ""
-        return Finding(FindingKind.NO_FRAMES, ERROR, text)
+        return Finding(FindingKind.NO_FRAMES, Severity.ERROR, text)
 
     def _describe_strangers(self) -> str:
         """Return the text about datagrams that come from others than the peers only."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ...core import Refusal
-from ..ros.status import WARN, Finding, FindingKind, Status
+from ...inspection import Finding, FindingKind, Severity
+from ..ros.status import Status
 
 SHARE = 0.03  # of the samples of a period; fewer are only counted
 LEAST = 3  # samples
@@ -70,4 +71,4 @@ class LossReport:
         if many and not mixed:  # between the numberings of two devices there are only holes
             text = f"lost or refused of {total} samples since the last report: {_list(many)}"
             about = " ".join(many)
-            status.note(Finding(FindingKind.LOSSES, WARN, text, about, logged=True))
+            status.note(Finding(FindingKind.LOSSES, Severity.WARNING, text, about=about))

@@ -163,11 +163,10 @@ def _compare(
 ) -> None:
     """Print whether the offline run of the same samples gives the same numbers."""
     from ...core import DualFootError
-    from .live_graph import run_offline, same_bits
+    from ...evaluation import track
+    from .live_graph import same_bits
 
-    assert recording.left is not None and recording.right is not None
-    samples = {"left": recording.left, "right": recording.right}
-    batch = run_offline(samples, config, recording.pressure)
+    batch = track(recording, config)
     epochs = len(live.trajectory.left)
     if same_bits(live.trajectory, batch):
         text = f"{epochs} epochs, equal to the offline run to the bit"

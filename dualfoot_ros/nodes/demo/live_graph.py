@@ -18,17 +18,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from ...core import (
-    FEET,
-    DualFootError,
-    DualFootTracker,
-    ImuSeries,
-    PressureSeries,
-    TrackerConfig,
-    Trajectory,
-    fields_of,
-)
-from ...timing import align
+from ...core import FEET, DualFootError, TrackerConfig, Trajectory
 from ..fusion import FusionNode
 from ..inputs.field_topics import TOPICS as MAGNETIC
 from ..inputs.pressure_topics import TOPICS
@@ -85,7 +75,9 @@ class LiveGraph:
         values = {"bag": str(bag), "clock": False}
         self.replay = self._add(ReplayNode, values, "", gate=self._has_room)
 
-    def _add(self, kind: Callable[..., Any], values: dict, space: str, **options: Any) -> Any:
+    def _add(
+        self, kind: Callable[..., Any], values: dict[str, Any], space: str, **options: Any
+    ) -> Any:
         overrides = [Parameter(name, value=value) for name, value in values.items()]
         node = kind(
             context=self.context,
@@ -183,17 +175,6 @@ def run_live(
         return {name: graph.result(name) for name in configs}
     finally:
         graph.close()
-
-
-def run_offline(
-    series: Mapping[str, ImuSeries],
-    config: TrackerConfig,
-    pressure: Mapping[str, PressureSeries] | None = None,
-) -> Trajectory:
-    """Return the batch run of the same samples."""
-    pair = series["left"], series["right"]
-    left, right = align(*pair)
-    return DualFootTracker(config).run(left, right, pressure, fields_of(*pair))
 
 
 def same_bits(live: Trajectory, batch: Trajectory) -> bool:

@@ -10,12 +10,13 @@ from rclpy.node import Node
 from sensor_msgs.msg import MagneticField
 
 from ...core import FEET, FloatArray
+from ...inspection import Finding
 from ...recording import Topics
 from ...settings import InputConfig
 from ...timing import StampConfig
 from ..ros import qos
 from ..ros.messages import set_time, to_ns
-from ..ros.status import Finding, Status
+from ..ros.status import Status
 from ..ros.watched_input import WatchedInput
 from ..ros.watched_publisher import watched_publisher
 

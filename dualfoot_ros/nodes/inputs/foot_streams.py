@@ -43,7 +43,7 @@ class FootStreams:
         *,
         stamping: StampConfig,
         also: Sequence[Watched] = (),
-        hint: str = "",
+        remedy: str = "",
     ) -> None:
         """Subscribe.
 
@@ -55,7 +55,7 @@ class FootStreams:
         take_pair : called with every pair that is complete
         stamping : where the stamps come from
         also : further inputs to watch
-        hint : added to the text about a silent input
+        remedy : that of the finding on a silent input
         """
         self._read_sample, self._take_pair = read_sample, take_pair
         self.aligner = Aligner(group(AlignerConfig, values, "aligner."))
@@ -64,7 +64,7 @@ class FootStreams:
         config = group(InputConfig, values, "input.")
         profile = qos.sensor(config.depth)
         self.inputs = {
-            foot: WatchedInput(node, Imu, f"{foot}/{topic}", self._receiver(foot), profile, hint)
+            foot: WatchedInput(node, Imu, f"{foot}/{topic}", self._receiver(foot), profile, remedy)
             for foot in FEET
         }
         self.monitor = InputMonitor(node, [*self.inputs.values(), *also], config)

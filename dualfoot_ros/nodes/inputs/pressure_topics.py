@@ -9,11 +9,11 @@ from rclpy.node import Node
 from sensor_msgs.msg import FluidPressure
 
 from ...core import PressureSeries
+from ...inspection import Finding
 from ...recording import PRESSURE_TOPICS
 from ...settings import InputConfig
 from ..ros import qos
 from ..ros.messages import set_time, to_ns
-from ..ros.status import Finding
 from ..ros.watched_input import WatchedInput
 from ..ros.watched_publisher import watched_publisher
 
@@ -56,10 +56,10 @@ class PressureInputs:
         reasons = [complaint for complaint in complaints if complaint is not None]
         if len(reasons) < len(complaints):
             return None
-        best = min(reasons, key=lambda reason: reason.level)
-        texts = "; ".join(reason.text for reason in reasons)
+        best = min(reasons, key=lambda reason: reason.severity.rank)
+        texts = "; ".join(reason.sentence for reason in reasons)
         text = f"aids.barometer is on but there is no air pressure: {texts}"
-        return Finding(best.kind, best.level, text, about="pressure")
+        return Finding(best.kind, best.severity, text, about="pressure")
 
 
 def _receiver(worn: str, take: Take) -> Callable[[FluidPressure], None]:

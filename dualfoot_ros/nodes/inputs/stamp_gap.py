@@ -5,8 +5,9 @@ from __future__ import annotations
 import time
 
 from ...core import FEET
+from ...inspection import Finding, FindingKind, Severity
 from ...timing import Aligner
-from ..ros.status import ERROR, WARN, Finding, FindingKind, Status
+from ..ros.status import Status
 
 UNPAIRED_S = 2.0  # without a pair while both feet deliver, by the wall clock
 DELIVERS_S = 1.0  # a foot without a sample for longer is silent, which its input reports
@@ -42,11 +43,10 @@ class StampGap:
         if len(self._newest_ns) == len(FEET):
             status.values["right less left, newest stamps (s)"] = 1e-9 * self._right_less_left_ns()
         if self._is_apart(paired):
-            text = self._describe_gap()
-            status.note(Finding(FindingKind.STAMPS_APART, ERROR, text, logged=True))
+            status.note(self._gap_finding())
         elif late > 0:
             text = self._describe_late(late)
-            status.note(Finding(FindingKind.LATE_SAMPLES, WARN, text, logged=True))
+            status.note(Finding(FindingKind.LATE_SAMPLES, Severity.WARNING, text))
         self._behind_ns = dict.fromkeys(FEET, 0)
 
     def _right_less_left_ns(self) -> int:
@@ -66,14 +66,16 @@ class StampGap:
         apart = abs(self._right_less_left_ns()) > self._aligner.config.max_delay_ns
         return apart and now_s - self._unpaired_s >= UNPAIRED_S
 
-    def _describe_gap(self) -> str:
+    def _gap_finding(self) -> Finding:
         right_less_left_s = 1e-9 * self._right_less_left_ns()
         foot = "left" if right_less_left_s > 0.0 else "right"
-        return (
+        text = (
             f"no pairs: the stamps of the {foot} foot are {abs(right_less_left_s):.1f} s behind "
             f"those of the {_other(foot)} foot, where aligner.max_delay is "
-            f"{self._aligner.config.max_delay:g} s; {REMEDY.format(offset=-right_less_left_s)}"
+            f"{self._aligner.config.max_delay:g} s"
         )
+        remedy = REMEDY.format(offset=-right_less_left_s)
+        return Finding(FindingKind.STAMPS_APART, Severity.ERROR, text, remedy)
 
     def _describe_late(self, late: int) -> str:
         foot = max(FEET, key=self._behind_ns.__getitem__)

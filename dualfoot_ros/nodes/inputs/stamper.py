@@ -5,15 +5,15 @@ from __future__ import annotations
 import threading
 
 from ...core import Refusal
+from ...inspection import Finding, FindingKind, Severity
 from ...timing import ClockState, DeviceClockConfig, StampConfig, Stamps
-from ..ros.status import ERROR, WARN, Finding, FindingKind, Status
+from ..ros.status import Status
 
 LARGEST_NS = (1 << 31) * 1_000_000_000  # a stamp of ROS can hold no more
 LONG = 4.0  # times clock.settle
 IN_STEP = (
     "the offset of the {foot} foot's clock is known to {state.offset_std_s:.3f} s only: the "
-    "device sends in step with its link, which delivers every {state.interval_s:.4f} s; change "
-    "either"
+    "device sends in step with its link, which delivers every {state.interval_s:.4f} s"
 )
 
 
@@ -61,19 +61,20 @@ class Stamper:
         refused = self.counters[Refusal.NOT_STAMPED]
         if refused > self._reported:
             text = f"samples are refused: {Refusal.NOT_STAMPED.words}"
-            status.note(Finding(FindingKind.NOT_STAMPED, WARN, text))
+            status.note(Finding(FindingKind.NOT_STAMPED, Severity.WARNING, text))
         self._reported = refused
 
     def _check_clock(self, foot: str, state: ClockState) -> Finding | None:
         if state.phase == "refused":
             text = self._describe_refused(foot, state)
-            return Finding(FindingKind.CLOCK_REFUSED, ERROR, text, foot, logged=True)
+            return Finding(FindingKind.CLOCK_REFUSED, Severity.ERROR, text, about=foot)
         if state.phase == "settling":
             text = self._describe_settling(foot, state)
-            return Finding(FindingKind.CLOCK_SETTLING, WARN, text, foot)
+            return Finding(FindingKind.CLOCK_SETTLING, Severity.WARNING, text, about=foot)
         if self._is_in_step(state):
             text = IN_STEP.format(foot=foot, state=state)
-            return Finding(FindingKind.CLOCK_IN_STEP, WARN, text, foot, logged=True)
+            kind = FindingKind.CLOCK_IN_STEP
+            return Finding(kind, Severity.WARNING, text, "change either", foot)
         return None
 
     def _is_in_step(self, state: ClockState) -> bool:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from ..ros.status import WARN, Finding, FindingKind, Status
+from ...inspection import Finding, FindingKind, Severity
+from ..ros.status import Status
 
 WINDOW = 100  # samples
 GRAVITY_IN_G = (0.7, 1.4)  # mean norm of specific force in g, of a foot that stands or walks
 LEAST_GRAVITY = 4.0  # m/s^2; no foot on Earth has a smaller mean norm
 FASTEST = 35.0  # rad/s, 2000 deg/s: full scale of the sensors people put on their feet
 FAST_SHARE = 0.05
-FORCE, RATE = "specific_force", "angular_rate"
 
 
 class UnitCheck:
@@ -22,10 +22,10 @@ class UnitCheck:
     """
 
     def __init__(self, warn: Callable[[str], object], foot: str = "") -> None:
-        """Call ``warn`` with the text of each finding; name ``foot`` in it, where it is given."""
+        """Call ``warn`` with the sentence of each finding, which names ``foot`` where given."""
         self._warn, self._foot = warn, foot
         self._name = f"the {foot} foot" if foot else "this sensor"
-        self._found: dict[str, Finding] = {}
+        self._found: dict[FindingKind, Finding] = {}
         self._norm = 0.0
         self._fast = 0
         self._count = 0
@@ -56,27 +56,26 @@ class UnitCheck:
     def _check_window(self, norm: float, fast_share: float) -> None:
         if GRAVITY_IN_G[0] < norm < GRAVITY_IN_G[1]:
             self._report(
-                FORCE,
+                FindingKind.FORCE_UNIT,
                 f"specific force of {self._name} has a mean norm of {norm:.2f}; it looks like g "
                 "where m/s^2 is expected: set units.specific_force of imu_adapter to g",
             )
         elif norm < LEAST_GRAVITY:
             self._report(
-                FORCE,
+                FindingKind.FORCE_UNIT,
                 f"specific force of {self._name} has a mean norm of {norm:.2f} m/s^2 where "
-                "about 9.8 is expected: gravity seems to be removed; the raw specific force is "
-                "needed",
+                "about 9.8 is expected: gravity seems to be removed",
+                "the raw specific force is needed",
             )
         if fast_share > FAST_SHARE:
             self._report(
-                RATE,
+                FindingKind.RATE_UNIT,
                 f"angular rate of {self._name} exceeds {FASTEST:g} rad/s; it looks like deg/s "
                 "where rad/s is expected: set units.angular_rate of imu_adapter to deg/s",
             )
 
-    def _report(self, quantity: str, text: str) -> None:
-        if quantity in self._found:
+    def _report(self, kind: FindingKind, text: str, remedy: str = "") -> None:
+        if kind in self._found:
             return
-        about = f"{self._foot}/{quantity}"
-        self._found[quantity] = Finding(FindingKind.WRONG_UNIT, WARN, text, about)
-        self._warn(text)
+        self._found[kind] = Finding(kind, Severity.WARNING, text, remedy, self._foot)
+        self._warn(self._found[kind].sentence)

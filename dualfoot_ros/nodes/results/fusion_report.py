@@ -9,9 +9,10 @@ from rclpy.clock import Clock
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
 from ...core import FEET, DualFootTracker, Event, EventKind, Refusal, Update, refusal_of
+from ...inspection import Finding, FindingKind, Severity
 from ...timing import Aligner
 from ..ros.diagnostics import Rates
-from ..ros.status import WARN, Described, Finding, FindingKind, Status
+from ..ros.status import Described, Status
 from . import event_messages
 
 LOGGED = (EventKind.ALIGNED, EventKind.HEADING, EventKind.RESET)
@@ -105,14 +106,15 @@ class FusionReport:
             status.values |= {"spacing of the feet (m)": spacing, "spacing std (m)": std}
         if tracker.phase == "aligning" and tracker.complaint:
             text = f"aligning: stand still ({tracker.complaint})"
-            status.note(Finding(FindingKind.ALIGNING, WARN, text))
+            status.note(Finding(FindingKind.ALIGNING, Severity.WARNING, text))
 
     def _describe_stances(self, status: Status) -> None:
         for foot in FEET:
             status.values[f"{foot} stance"] = self._stance[foot]
             if self._stamp_ns - self._last_stance_ns[foot] > NO_STANCE_NS:
                 text = f"no stance of the {foot} foot for 5 s of walking: check stance.threshold"
-                status.note(Finding(FindingKind.NO_STANCE, WARN, text, foot))
+                kind = FindingKind.NO_STANCE
+                status.note(Finding(kind, Severity.WARNING, text, about=foot))
 
     def _describe_counters(self, status: Status) -> None:
         aligned, tracked = self._aligner.counters, dict(self._tracker.counters)
@@ -127,16 +129,16 @@ class FusionReport:
         ]
         if refused:
             text = f"samples are refused: {', '.join(refused)}"
-            status.note(Finding(FindingKind.REFUSED_SAMPLES, WARN, text))
+            status.note(Finding(FindingKind.REFUSED_SAMPLES, Severity.WARNING, text))
         if rates.get(Refusal.STANCES_WITHOUT_PRESSURE, 0.0) > 0:
             text = "stances have no air pressure: check its clock and rate"
-            status.note(Finding(FindingKind.NO_PRESSURE, WARN, text))
+            status.note(Finding(FindingKind.NO_PRESSURE, Severity.WARNING, text))
         if rates.get(Refusal.STANCES_WITHOUT_FIELD, 0.0) > 0:
             text = "stances have no magnetic field: check its stamps and rate"
-            status.note(Finding(FindingKind.NO_FIELD, WARN, text))
+            status.note(Finding(FindingKind.NO_FIELD, Severity.WARNING, text))
         if self._external and paired["interpolated"] > 0:
-            text = "the streams do not share their stamps; use sync: internal"
-            status.note(Finding(FindingKind.STAMPS_NOT_SHARED, WARN, text))
+            kind, text = FindingKind.STAMPS_NOT_SHARED, "the streams do not share their stamps"
+            status.note(Finding(kind, Severity.WARNING, text, "use sync: internal"))
 
 
 def _select_warned(rates: Mapping[str, float]) -> dict[str, str]:

@@ -31,7 +31,8 @@ def declare(node: Node, specs: Iterable[ParameterSpec]) -> dict[str, Any]:
     ConfigError
         When a value has the wrong type or is out of its range.
     """
-    given = {name: parameter.value for name, parameter in node._parameter_overrides.items()}
+    overrides = node._parameter_overrides  # noqa: SLF001  (rclpy shows only what is declared)
+    given = {name: parameter.value for name, parameter in overrides.items()}
     values = {}
     for spec in specs:
         value = check(spec, given.get(spec.name, spec.default))

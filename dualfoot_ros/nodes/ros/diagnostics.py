@@ -10,10 +10,11 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
+from ...inspection import Finding, Key
 from ...settings import ReportConfig
 from . import qos
 from .declared_parameters import group
-from .status import OK, Finding, Key, Status
+from .status import Status
 
 OVER_S = 10.0
 
@@ -37,7 +38,7 @@ class Reporter:
         status = Status()
         self._collect(status)
         for finding in self._beginnings.select(status.findings, time.monotonic()):
-            self._node.get_logger().warning(finding.text)
+            self._node.get_logger().warning(finding.sentence)
         message = DiagnosticArray()
         message.header.stamp = self._node.get_clock().now().to_msg()
         name = self._node.get_fully_qualified_name().lstrip("/")
@@ -46,25 +47,25 @@ class Reporter:
 
 
 class Beginnings:
-    """Memory of the findings that are to be logged, so that each is logged once.
+    """Memory of the findings of kinds to be logged once.
 
     A finding that comes and goes is over only when it has stayed away for ``OVER_S``.
     """
 
     def __init__(self) -> None:
-        self._known: dict[Key, tuple[bytes, float]] = {}  # level, when it was last there
+        self._known: dict[Key, tuple[int, float]] = {}  # rank, when it was last there
 
     def select(self, findings: Iterable[Finding], now_s: float) -> list[Finding]:
         """Return the findings to log: those that were not there before or have become worse."""
         self._known = {k: v for k, v in self._known.items() if now_s - v[1] < OVER_S}
         begun = []
         for finding in findings:
-            if not finding.logged:
+            if not finding.kind.logged_once:
                 continue
-            before, _ = self._known.get(finding.key, (OK, now_s))
-            if finding.level > before:
+            before, _ = self._known.get(finding.key, (0, now_s))
+            if finding.severity.rank > before:
                 begun.append(finding)
-            self._known[finding.key] = max(finding.level, before), now_s
+            self._known[finding.key] = max(finding.severity.rank, before), now_s
         return begun
 
 

@@ -20,6 +20,7 @@ from ...core import (
 )
 
 SECOND = 1_000_000_000
+LEAST_NORM = 1e-6  # of a quaternion; a smaller one is none
 UNKNOWN_RATE_VARIANCE = 1.0e3  # (rad/s)^2; the person's turning rate is not estimated
 
 
@@ -115,7 +116,7 @@ def pose_yaw(pose: Pose) -> tuple[FloatArray, float] | None:
     """Return position (3,) m and yaw (rad) of ``pose``, or None when they are not finite."""
     position, quaternion = pose_of(pose)
     norm = float(np.linalg.norm(quaternion))
-    if not (np.isfinite(position).all() and 1e-6 < norm < math.inf):
+    if not (np.isfinite(position).all() and LEAST_NORM < norm < math.inf):
         return None
     return position, quaternion_yaw(quaternion / norm)
 

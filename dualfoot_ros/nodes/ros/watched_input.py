@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any, Protocol
 
 from rclpy.clock import Clock, ClockType
@@ -11,8 +12,9 @@ from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
 
+from ...inspection import Finding, FindingKind, Key, Severity
 from ...settings import InputConfig
-from .status import ERROR, WARN, Finding, FindingKind, Key, Status
+from .status import Status
 
 LOOK_EVERY = 0.25  # s
 
@@ -24,11 +26,11 @@ def silence(who: str, begun: bool, silent_s: float, config: InputConfig) -> Find
     """
     if begun:
         text = f"{who} but was silent for {silent_s:.1f} s"
-        return Finding(FindingKind.SILENT, ERROR, text)
+        return Finding(FindingKind.SILENT, Severity.ERROR, text)
     if silent_s < config.first:
-        return Finding(FindingKind.NOT_BEGUN, WARN, f"{who} but no sample yet")
+        return Finding(FindingKind.NOT_BEGUN, Severity.WARNING, f"{who} but no sample yet")
     text = f"{who} but no sample came for {silent_s:.1f} s"
-    return Finding(FindingKind.BEGINS_LATE, ERROR, text)
+    return Finding(FindingKind.BEGINS_LATE, Severity.ERROR, text)
 
 
 class WatchedInput:
@@ -37,7 +39,7 @@ class WatchedInput:
     ``lost`` counts the holes in the publisher's own numbering, which no queue hides.
     ``arrival_ns`` is when the newest message came from the network, whatever time it then spent
     in the queue; with ``use_sim_time`` it is the simulated time at which it is taken out.
-    ``hint`` is added to the text where a publisher is there and silent.
+    ``remedy`` is that of the finding where a publisher is there and silent.
     """
 
     def __init__(
@@ -47,14 +49,14 @@ class WatchedInput:
         topic: str,
         callback: Callable[[Any], None],
         profile: QoSProfile,
-        hint: str = "",
+        remedy: str = "",
     ) -> None:
         self.received = 0
         self.lost = 0
         self._number: int | None = None
         self.arrival_ns = 0
         self.last_s = self._free_s = time.monotonic()
-        self._node, self._callback, self._profile, self._hint = node, callback, profile, hint
+        self._node, self._callback, self._profile, self._remedy = node, callback, profile, remedy
         self._type_name = _type_name(message_type)
         # rclpy's own warning of an incompatible QoS is left out: `_find_fault` says more.
         silent = SubscriptionEventCallbacks(use_default_callbacks=False)
@@ -99,7 +101,7 @@ class WatchedInput:
         count = self._node.count_publishers(self.topic)
         who = f"topic '{self.topic}' has {count} publisher(s)"
         finding = silence(who, begun, now_s - since_s, config)
-        return Finding(finding.kind, finding.level, finding.text + self._hint, self.topic)
+        return replace(finding, remedy=self._remedy, about=self.topic)
 
     def _find_fault(self) -> Finding | None:
         """Return why nothing can come, or None when something could.
@@ -121,7 +123,8 @@ class WatchedInput:
         return self._fault(FindingKind.QOS_MISFIT, text)
 
     def _fault(self, kind: FindingKind, text: str) -> Finding:
-        return Finding(kind, ERROR, f"topic '{self.topic}' {text}", self.topic)
+        text = f"topic '{self.topic}' {text}"
+        return Finding(kind, Severity.ERROR, text, about=self.topic)
 
 
 class Watched(Protocol):
@@ -164,7 +167,8 @@ class InputMonitor:
                 status.note(complaint)
             elif watched.lost > self._lost.get(topic, 0):
                 text = f"samples on '{topic}' are lost before they arrive"
-                status.note(Finding(FindingKind.LOST_MESSAGES, WARN, text, topic))
+                kind = FindingKind.LOST_MESSAGES
+                status.note(Finding(kind, Severity.WARNING, text, about=topic))
             self._lost[topic] = watched.lost
 
     def look(self) -> None:
@@ -176,7 +180,7 @@ class InputMonitor:
                 continue
             self._logged[watched.topic] = key
             if complaint is not None:
-                self._node.get_logger().warning(complaint.text)
+                self._node.get_logger().warning(complaint.sentence)
             else:
                 self._node.get_logger().info(f"topic '{watched.topic}' delivers")
 

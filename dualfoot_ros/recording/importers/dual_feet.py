@@ -64,12 +64,13 @@ def _read(path: Path) -> dict[str, Any]:
     from scipy.io import loadmat
 
     try:
-        return loadmat(path, squeeze_me=True, struct_as_record=False)
+        content: dict[str, Any] = loadmat(path, squeeze_me=True, struct_as_record=False)
     except OSError:
         raise
     except Exception as error:  # a broken file leads the reader to raise nearly anything
         reason = " ".join(str(error).split()) or type(error).__name__
         raise RecordingError(f"'{path}' is no readable .mat file ({reason})") from error
+    return content
 
 
 def _reference(walk: dict[str, Any]) -> Reference | None:

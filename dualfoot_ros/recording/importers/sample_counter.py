@@ -20,7 +20,8 @@ def unwrap_us(counter: ArrayLike) -> IntArray:
     if not len(unsigned):
         return unsigned
     steps = (np.diff(unsigned) + WRAP_US // 2) % WRAP_US - WRAP_US // 2
-    return (unsigned[0] + np.concatenate(([0], np.cumsum(steps)))) * 1000
+    stamp_ns: IntArray = (unsigned[0] + np.concatenate(([0], np.cumsum(steps)))) * 1000
+    return stamp_ns
 
 
 def same_wrap(left_ns: IntArray, right_ns: IntArray) -> tuple[IntArray, IntArray]:

@@ -44,7 +44,8 @@ class Offset:
         stamps = np.asarray(stamp_ns, dtype=np.int64)
         elapsed = stamps - self.center_ns
         slower = 1.0 / (1.0 + 1e-6 * self.skew_ppm) - 1.0
-        return stamps + self.offset_ns + np.rint(slower * elapsed).astype(np.int64)
+        corrected: IntArray = stamps + self.offset_ns + np.rint(slower * elapsed).astype(np.int64)
+        return corrected
 
     def offset_at(self, other_ns: int) -> int:
         """Return what is added to the stamp that becomes ``other_ns`` on the other clock, ns."""

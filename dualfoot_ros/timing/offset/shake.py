@@ -22,6 +22,7 @@ LEAST_RATE = 1.5  # rad/s rms in a window worth a look
 LEAST_CORRELATION = 0.9  # of the norms, before the vectors are compared
 LARGEST_RESIDUAL = 0.10  # of the rotated rates; real feet that walk differ by 0.19 and more
 LEAST_LEAD = 4.0  # of what the best correlation elsewhere leaves over what this one leaves
+AGREE_S = 0.5  # within which the offsets of all shakes lie
 LEAST_SPAN_S = 30.0  # between shakes, to tell a skew
 STD_S = 0.001
 
@@ -107,7 +108,7 @@ def find_shakes(left: ImuSeries, right: ImuSeries) -> list[Shake]:
     if not found:
         return []
     best = min(found, key=lambda s: s.residual)
-    return [s for s in found if abs(s.lag_s - best.lag_s) < 0.5]
+    return [s for s in found if abs(s.lag_s - best.lag_s) < AGREE_S]
 
 
 def _match(part: Signal, other: Signal, left: ImuSeries, right: ImuSeries) -> Shake | None:
@@ -144,7 +145,10 @@ def _coefficient(window: FloatArray, values: FloatArray) -> FloatArray:
     total = sums[count:] - sums[:-count]
     variance = squares[count:] - squares[:-count] - total**2 / count
     product = correlate(values, centred, mode="valid")
-    return product / np.sqrt(np.maximum(variance, 1e-9) * max(float(centred @ centred), 1e-9))
+    correlation: FloatArray = product / np.sqrt(
+        np.maximum(variance, 1e-9) * max(float(centred @ centred), 1e-9)
+    )
+    return correlation
 
 
 def _residual(part: Signal, left: ImuSeries, right: ImuSeries, lag_s: float) -> float:
@@ -161,4 +165,5 @@ def _sampled(series: ImuSeries, time_ns: np.ndarray) -> FloatArray:
     start = int(series.stamp_ns[0])
     at, known = (time_ns - start) * 1e-9, (series.stamp_ns - start) * 1e-9
     rates = [np.interp(at, known, series.angular_rate[:, k]) for k in range(3)]
-    return np.array(rates).T - np.mean(rates, axis=1)
+    centred: FloatArray = np.array(rates).T - np.mean(rates, axis=1)
+    return centred

@@ -83,7 +83,8 @@ def _grid(feet: Mapping[str, ImuSeries], config: AlignerConfig) -> IntArray:
     numbers = _numbers(feet["left"].stamp_ns, start, config)
     grid = start + np.rint(numbers * 1e9 / config.rate).astype(np.int64)
     end = min(int(series.stamp_ns[-1]) for series in feet.values())
-    return grid[grid <= end + config.tolerance_ns]
+    common: IntArray = grid[grid <= end + config.tolerance_ns]
+    return common
 
 
 def _numbers(stamp_ns: IntArray, start: int, config: AlignerConfig) -> IntArray:

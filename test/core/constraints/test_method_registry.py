@@ -85,7 +85,7 @@ def run(folder: Path, *command: str) -> subprocess.CompletedProcess[str]:
     """Run Python with the packages in ``folder``."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(folder), str(ROOT)])}
     return subprocess.run(
-        [sys.executable, *command], env=environment, capture_output=True, text=True
+        [sys.executable, *command], env=environment, check=False, capture_output=True, text=True
     )
 
 

@@ -87,6 +87,17 @@ class LinearFilter:
         self.P = (np.eye(12) - K @ H) @ self.P
 
 
+def accelerations(feet, x, dt, values):
+    """Propagate both feet from the velocities of ``x``; return what ``values`` do to them."""
+    u = []
+    for i, foot in enumerate(feet):
+        before = x[6 + 3 * i : 9 + 3 * i]
+        foot.v = before
+        foot.propagate(dt, values[6 * i : 6 * i + 6])
+        u.append((foot.v - before) / dt)
+    return u
+
+
 def test_with_known_attitude_it_is_the_papers_linear_filter():
     walked, arm = board(1)
     made = simulate(walked, grade("consumer"), seed=1)
@@ -114,13 +125,7 @@ def test_with_known_attitude_it_is_the_papers_linear_filter():
     moved = swings = 0
     for epoch, _ in follow(session, pairs, start):
         k, dt = start + epoch, pairs.dts[start + epoch]
-        u = []
-        for i, foot in enumerate(feet):
-            before = ours.x[6 + 3 * i : 9 + 3 * i]
-            foot.v = before
-            foot.propagate(dt, pairs.values[k, 6 * i : 6 * i + 6])
-            u.append((foot.v - before) / dt)
-        ours.predict(*u, dt)
+        ours.predict(*accelerations(feet, ours.x, dt, pairs.values[k]), dt)
         flags = int(session.space.n[lay.N_FLAGS + epoch % session.space.ring])
         ends = [
             f.rate + 0.5 * (f.rate - r) * (epoch > 0) for f, r in zip(feet, rates, strict=True)

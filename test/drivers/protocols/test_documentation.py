@@ -1,4 +1,4 @@
-"""What docs/sensors.md says is what the package does."""
+"""What docs/reference/sensors.md says is what the package does."""
 
 import re
 from pathlib import Path
@@ -16,7 +16,8 @@ from dualfoot_ros.drivers import (
     parse_uri,
 )
 
-TEXT = (Path(__file__).parents[3] / "docs" / "sensors.md").read_text(encoding="utf-8")
+PAGE = Path(__file__).parents[3] / "docs" / "reference" / "sensors.md"
+TEXT = PAGE.read_text(encoding="utf-8")
 ROWS = [line for line in TEXT.splitlines() if line.startswith("| `")]
 
 
@@ -51,14 +52,14 @@ def test_every_source_that_is_shown_is_understood():
 
 
 def test_the_python_example_names_what_exists():
-    import dualfoot_ros.drivers as drivers
+    from dualfoot_ros import drivers
 
     (names,) = re.findall(r"from dualfoot_ros.drivers import (.*)", TEXT)
     assert all(hasattr(drivers, name.strip()) for name in names.split(","))
 
 
 def test_the_short_names_stand_for_the_same_classes():
-    import dualfoot_ros.drivers as drivers
+    from dualfoot_ros import drivers
 
     short = re.findall(r"`(\w+)` \(`(\w+)` for short\)", TEXT)
     assert len(short) == 2

@@ -16,9 +16,9 @@ from dualfoot_ros.drivers.protocols.mcu import McuDecoder
 from ..frames import cobs as stuff
 from ..frames import crc16, mcu, truth
 
-SOURCES = Path(__file__).parents[3] / "docs" / "mcu_frame"
+SOURCES = Path(__file__).parents[3] / "docs" / "reference" / "mcu_frame"
 
-# The example of docs/mcu_frame.md: counter 258, one second, 1 g up, 0.5 rad/s about z.
+# The example of docs/reference/mcu_frame.md: counter 258, one second, 1 g up, 0.5 rad/s about z.
 EXAMPLE = bytes.fromhex(
     "07 01 02 01 40 42 0F 01 01 01 01 01 01 01 01 05 0A E8 1C 41"
     "01 01 01 01 01 01 01 01 01 01 04 3F 60 E0 00"

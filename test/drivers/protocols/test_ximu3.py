@@ -6,6 +6,7 @@ import struct
 import time
 
 import pytest
+from processes import PATIENCE_S
 
 from dualfoot_ros.drivers.protocols.ximu3 import XImu3Config, XImu3Decoder
 
@@ -106,7 +107,7 @@ def test_the_makers_own_library_reads_the_same_from_the_same_bytes(encode):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
         for message in messages:
             sender.sendto(message, ("127.0.0.1", port))
-    deadline = time.monotonic() + 5.0
+    deadline = time.monotonic() + PATIENCE_S
     while len(theirs) < len(messages) and time.monotonic() < deadline:
         time.sleep(0.01)
     connection.close()

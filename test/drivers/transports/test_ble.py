@@ -1,6 +1,7 @@
 """A DOT over Bluetooth, with a stand-in for the radio: what is asked of the device, and when."""
 
 import asyncio
+import functools
 import importlib.machinery
 import sys
 import types
@@ -24,42 +25,42 @@ class Radio:
         self.refuse = 0
         self.notify_then_leave = 0
 
-    def client(radio):  # noqa: N805
-        class BleakClient:
-            def __init__(self, address, disconnected_callback=None):
-                self.address, self.gone = address, disconnected_callback
-                self.is_connected = False
 
-            async def connect(self):
-                if radio.refuse:
-                    radio.refuse -= 1
-                    raise RuntimeError("not in range")
-                self.is_connected = True
-                radio.log.append(("connect", self.address))
+class Client:
+    """What bleak has for one device: it answers as its ``radio`` says."""
 
-            async def start_notify(self, characteristic, callback):
-                self.notified = callback
-                radio.log.append(("notify", characteristic))
+    def __init__(self, radio, address, disconnected_callback=None):
+        self.radio, self.address, self.gone = radio, address, disconnected_callback
+        self.is_connected = False
 
-            async def write_gatt_char(self, characteristic, data, response):
-                radio.log.append(("write", characteristic, bytes(data)))
-                if bytes(data)[1] == 1:
-                    loop = asyncio.get_running_loop()
-                    for k in range(3):
-                        loop.call_soon(self.notified, 0, bytearray(dot(k)))
-                    if radio.notify_then_leave:
-                        radio.notify_then_leave -= 1
-                        loop.call_soon(self.leave)
+    async def connect(self):
+        if self.radio.refuse:
+            self.radio.refuse -= 1
+            raise RuntimeError("not in range")
+        self.is_connected = True
+        self.radio.log.append(("connect", self.address))
 
-            def leave(self):
-                self.is_connected = False
-                self.gone(self)
+    async def start_notify(self, characteristic, callback):
+        self.notified = callback
+        self.radio.log.append(("notify", characteristic))
 
-            async def disconnect(self):
-                self.is_connected = False
-                radio.log.append(("disconnect",))
+    async def write_gatt_char(self, characteristic, data, response):
+        self.radio.log.append(("write", characteristic, bytes(data)))
+        if bytes(data)[1] == 1:
+            loop = asyncio.get_running_loop()
+            for k in range(3):
+                loop.call_soon(self.notified, 0, bytearray(dot(k)))
+            if self.radio.notify_then_leave:
+                self.radio.notify_then_leave -= 1
+                loop.call_soon(self.leave)
 
-        return BleakClient
+    def leave(self):
+        self.is_connected = False
+        self.gone(self)
+
+    async def disconnect(self):
+        self.is_connected = False
+        self.radio.log.append(("disconnect",))
 
 
 @pytest.fixture
@@ -67,7 +68,7 @@ def radio(monkeypatch):
     found = Radio()
     bleak = types.ModuleType("bleak")
     bleak.__spec__ = importlib.machinery.ModuleSpec("bleak", None)
-    bleak.BleakClient = found.client()
+    bleak.BleakClient = functools.partial(Client, found)
     monkeypatch.setitem(sys.modules, "bleak", bleak)
     return found
 

@@ -5,10 +5,11 @@ import subprocess
 import sys
 import threading
 import time
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 import pytest
+from processes import PATIENCE_S
 
 from dualfoot_ros.drivers import Source, State
 from dualfoot_ros.drivers.transports.senders import MAX_SENDERS, Senders
@@ -55,11 +56,11 @@ def test_a_device_unplugged_and_back_twenty_times_comes_back_each_time_and_leaks
         assert collector.wait_for_state(State.WAITING)
         for turn in range(20):
             device.plug()
-            assert collector.wait_for_state(State.CONNECTED, seconds=2.0), f"turn {turn}"
+            assert collector.wait_for_state(State.CONNECTED), f"turn {turn}"
             device.send(mcu(10 * turn) + mcu(10 * turn + 1) + mcu(10 * turn + 2)[:9])
-            assert collector.wait_for_samples(2 * turn + 2, seconds=2.0), f"turn {turn}"
+            assert collector.wait_for_samples(2 * turn + 2), f"turn {turn}"
             device.unplug()
-            assert collector.wait_for_state(State.WAITING, seconds=2.0), f"turn {turn}"
+            assert collector.wait_for_state(State.WAITING), f"turn {turn}"
     assert source.counters["opened"] == source.counters["lost_links"] == 20
     assert [sample.counter for sample in collector.samples] == [
         10 * turn + k for turn in range(20) for k in (0, 1)
@@ -101,7 +102,7 @@ def test_udp_from_another_process_keeps_the_devices_clock_and_adds_the_hosts(nam
         assert collector.wait_for_state(State.CONNECTED)
         sender = run_device("udp", source.transport.port, name, 100, 3600, 1500)
         assert collector.wait_for_samples(100)
-        assert sender.wait(10) == 0
+        assert sender.wait(PATIENCE_S) == 0
     sender.stdout.close()
     assert_clocks_are_kept_apart(collector.samples, before_ns)
     ((sender, count),) = source.senders.samples.items()
@@ -129,18 +130,23 @@ def test_tcp_from_another_process_and_again_after_it_has_gone():
         again = run_device("tcp", port, "mcu", 60)
         assert collector.wait_for_samples(120)
     for process in (server, again):
-        assert process.wait(10) == 0
+        assert process.wait(PATIENCE_S) == 0
         process.stdout.close()
 
 
-def test_a_tcp_server_that_falls_silent_is_connected_to_again():
+def test_a_tcp_server_that_falls_silent_is_connected_to_again(clock):
     collector = Collector()
     with socket.create_server(("127.0.0.1", 0)) as server:
         port = server.getsockname()[1]
         uri = f"tcp://:{port}?format=mcu&silence=0.2&{QUICK}"
         with open_source(uri, collector):
             first, _ = server.accept()
-            second, _ = server.accept()
+            server.settimeout(0.1)
+            second = None
+            while second is None:
+                clock.move_on(1.0)
+                with suppress(TimeoutError):
+                    second, _ = server.accept()
             second.sendall(mcu(0))
             assert collector.wait_for_samples(1)
     first.close()

@@ -139,9 +139,14 @@ def test_a_report_that_fails_half_way_leaves_the_folder_as_it_was(tmp_path):
     target = tmp_path / "report"
     target.mkdir()
     (target / "metrics.json").write_text("old")
-    with pytest.raises(RuntimeError), report_folder(target) as folder:
-        (folder / "metrics.json").write_text("new")
-        raise RuntimeError
+
+    def fail():
+        with report_folder(target) as folder:
+            (folder / "metrics.json").write_text("new")
+            raise RuntimeError
+
+    with pytest.raises(RuntimeError):
+        fail()
     assert (target / "metrics.json").read_text() == "old"
     assert [p.name for p in tmp_path.iterdir()] == ["report"]
 

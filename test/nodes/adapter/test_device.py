@@ -1,11 +1,7 @@
 """imu_adapter by parameters alone: real links, device clocks, a cable that is pulled."""
 
-import os
 import signal
-import subprocess
-import sys
 import threading
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,10 +18,8 @@ from dualfoot_ros.nodes.ros import qos
 from dualfoot_ros.nodes.ros.messages import imu_values, to_ns
 
 from ..samples import status_values
-from ..skewed_device import RATE, STEP_NS
+from ..skewed_device import RATE, START_NS, STEP_NS, SkewedDevice
 
-TESTS = Path(__file__).resolve().parents[2]
-BURST = 20  # samples, 0.1 s
 COUNT = 2400  # 12 s
 
 
@@ -40,7 +34,7 @@ class Adapter:
         probe.create_subscription(DiagnosticArray, "/diagnostics", self.reports.append, 10)
         values = {"source": source, "reports.period": 0.1, **values}
         self.node = bench.add(ImuAdapterNode, values, namespace="left")
-        bench.until(lambda: self.node._out.get_subscription_count(), "discovery")
+        bench.until(self.node._out.get_subscription_count, "discovery")
 
     def report(self):
         """Return the newest report."""
@@ -51,29 +45,16 @@ class Adapter:
         return self.reports and self.report().level == level and words in self.report().message
 
 
-@pytest.fixture
-def send():
-    """Start the device with the skewed clock; return it and the wall time of its sample 0."""
-    running = []
-
-    def start(port, count, skew_ppm):
-        arguments = [port, count, 3600.0, skew_ppm, BURST]
-        command = [sys.executable, str(TESTS / "nodes" / "skewed_device.py"), *map(str, arguments)]
-        env = {**os.environ, "PYTHONPATH": str(TESTS)}
-        process = subprocess.Popen(command, env=env, stdout=subprocess.PIPE, text=True)
-        running.append(process)
-        return int(process.stdout.readline())
-
-    yield start
-    for process in running:
-        process.kill()
-        process.communicate()
+def skewed(bench, adapter, skew_ppm):
+    """Return a device on the port of the adapter, once that is open."""
+    bench.until(lambda: adapter.node.device.source.state is State.CONNECTED, "the port")
+    return SkewedDevice(bench, adapter.node, skew_ppm)
 
 
-def true_ns(samples, start_ns):
-    """Return when the samples were taken, by the wall clock."""
+def true_ns(samples):
+    """Return when the samples were taken, by the host's clock."""
     numbers = np.array([round(m.angular_velocity.x / RATE) for m in samples])
-    return start_ns + numbers * STEP_NS
+    return START_NS + numbers * STEP_NS
 
 
 def listen(stamper):
@@ -88,16 +69,15 @@ def listen(stamper):
     return found
 
 
-def test_a_skewed_clock_behind_a_bursty_link_is_stamped_right_within_seconds(bench, send):
-    adapter = Adapter(bench, "udp://127.0.0.1:0?format=mcu")
+def test_a_skewed_clock_behind_a_bursty_link_is_stamped_right_within_seconds(bench, clock):
+    adapter = Adapter(bench, "udp://127.0.0.1:0?format=mcu", use_sim_time=True)
     arrivals = listen(adapter.node.stamper)
-    transport = adapter.node.device.source.transport
-    bench.until(lambda: adapter.node.device.source.state is State.CONNECTED, "the port")
-    start_ns = send(transport.port, COUNT, 1500.0)
-    bench.until(lambda: len(arrivals) >= COUNT, "samples")
-    least = (np.array(arrivals) - start_ns - np.arange(COUNT) * STEP_NS).min()
+    skewed(bench, adapter, 1500.0).send(COUNT)
+    bench.until(lambda: len(arrivals) == COUNT, "samples")
+    bench.until(lambda: len(adapter.samples) == adapter.node.counters["relayed"], "all of them")
+    least = (np.array(arrivals) - START_NS - np.arange(COUNT) * STEP_NS).min()
     last = adapter.samples[-400:]  # 10 s and more after the first
-    errors = 1e-9 * ([to_ns(m.header.stamp) for m in last] - true_ns(last, start_ns) - least)
+    errors = 1e-9 * ([to_ns(m.header.stamp) for m in last] - true_ns(last) - least)
     assert np.median(np.abs(errors)) < 0.003
     assert np.abs(errors).max() < 0.01  # a burst spreads the arrivals over 0.1 s
     bench.until(lambda: status_values(adapter.reports[-1]).get("seen") == str(COUNT), "a report")
@@ -108,14 +88,17 @@ def test_a_skewed_clock_behind_a_bursty_link_is_stamped_right_within_seconds(ben
     assert float(values["sampling rate (Hz)"]) == pytest.approx(199.7, abs=0.5)
 
 
-def test_a_clock_that_is_off_by_two_percent_is_reported_and_not_published(bench, send):
-    adapter = Adapter(bench, "udp://127.0.0.1:0?format=mcu")
-    bench.until(lambda: adapter.node.device.source.state is State.CONNECTED, "the port")
-    send(adapter.node.device.source.transport.port, 3000, 20_000.0)
+def test_a_clock_that_is_off_by_two_percent_is_reported_and_not_published(bench, clock):
+    adapter = Adapter(bench, "udp://127.0.0.1:0?format=mcu", use_sim_time=True)
+    device = skewed(bench, adapter, 20_000.0)
+    device.send(COUNT)
     bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "ppm it is not fused"), "a report")
     assert adapter.node.stamper.states["left"].skew_ppm == pytest.approx(20_000, rel=0.1)
-    refused = adapter.node.stamper.counters["not_stamped"]
-    bench.until(lambda: adapter.node.stamper.counters["not_stamped"] >= refused + 40, "samples")
+    counters = adapter.node.stamper.counters
+    bench.until(lambda: sum(counters.values()) == COUNT, "samples")
+    refused = counters["not_stamped"]
+    device.send(40)
+    bench.until(lambda: counters["not_stamped"] == refused + 40, "samples")
     assert adapter.node.counters["relayed"] == 0 and adapter.samples == []
 
 
@@ -173,7 +156,7 @@ def test_a_file_waits_for_a_subscriber_and_loses_no_sample_to_it(bench, tmp_path
     source = (
         f"file://{path}?format=mcu&speed=0" if kind == "captured bytes" else f"file://{walk_bag}"
     )
-    values = {"play.wait": 60.0, "play.rate": 100.0, "reports.period": 0.1, "input.silence": 0.1}
+    values = {"play.wait": 3600.0, "play.rate": 100.0, "reports.period": 0.1, "input.silence": 0.1}
     node = adapter_of(bench, source, **values)
     reports, probe = [], bench.plain()
     probe.create_subscription(DiagnosticArray, "/diagnostics", reports.append, 10)
@@ -241,45 +224,50 @@ def test_a_capture_that_cannot_be_read_ends_the_node_with_its_error(bench, tmp_p
         adapter.node.done.result()
 
 
-def test_bytes_of_another_format_are_said_to_be_that(bench, send):
-    values = {"input.silence": 0.5}
-    adapter = Adapter(bench, "udp://127.0.0.1:0?format=xbus", **values)
-    bench.until(lambda: adapter.node.device.source.state is State.CONNECTED, "the port")
-    send(adapter.node.device.source.transport.port, 2000, 0.0)
+def test_bytes_of_another_format_are_said_to_be_that(bench, clock):
+    adapter = Adapter(bench, "udp://127.0.0.1:0?format=xbus", use_sim_time=True)
+    skewed(bench, adapter, 0.0).send(200)
+    clock.move_on(3.0)
     bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "check format and baud"), "it")
     assert adapter.samples == []
 
 
-def test_a_link_without_a_byte_so_far_is_a_warning_at_first_and_then_an_error(bench, tmp_path):
+def test_a_link_without_a_byte_so_far_is_a_warning_at_first_and_then_an_error(
+    bench, clock, tmp_path
+):
     """The time that the device was not there does not count."""
     device = PluggedDevice(tmp_path / "ttyUSB0")
     values = {"input.silence": 0.5, "input.first": 2.0, "stamp": "header"}
     adapter = Adapter(bench, f"serial://{device.path}?format=mcu", **values)
     bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "is waiting"), "no device")
-    adapter.node.device._last_s -= 100.0
+    clock.move_on(100.0)
     device.plug()
     bench.until(lambda: adapter.node.device.source.state is State.CONNECTED, "the port")
-    bench.until(lambda: not adapter.says(DiagnosticStatus.ERROR, "is waiting"), "a report")
-    connected = len(adapter.reports)
+    bench.until(lambda: adapter.says(DiagnosticStatus.OK, ""), "a report")
+    clock.move_on(1.0)
+    bench.until(lambda: adapter.says(DiagnosticStatus.WARN, "but no sample yet"), "a warning")
+    clock.move_on(1.5)
     bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "no sample came for"), "an error")
-    levels = [each.status[0].level for each in adapter.reports[connected - 1 :]]
-    assert levels == sorted(levels) and DiagnosticStatus.WARN in levels
     device.send(frames.stream("mcu", 20))
+    bench.until(lambda: adapter.says(DiagnosticStatus.OK, ""), "samples")
+    clock.move_on(1.0)
     bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, "was silent for"), "silence")
     device.unplug()
 
 
-def test_a_link_that_takes_its_time_is_said_to_be_connecting(bench, tmp_path, monkeypatch):
+def test_a_link_that_takes_its_time_is_said_to_be_connecting(bench, clock, tmp_path, monkeypatch):
     """As over Bluetooth, where the first try takes up to 10 s."""
     device, reached = PluggedDevice(tmp_path / "ttyUSB0"), threading.Event()
     device.plug()
     opened = SerialTransport.open
-    monkeypatch.setattr(SerialTransport, "open", lambda self: reached.wait(60) and opened(self))
+    monkeypatch.setattr(SerialTransport, "open", lambda self: reached.wait() and opened(self))
     values = {"input.silence": 0.5, "input.first": 2.0, "stamp": "header"}
     adapter = Adapter(bench, f"serial://{device.path}?format=mcu", **values)
+    clock.move_on(1.0)
     said = "is connecting but no sample yet"
     bench.until(lambda: adapter.says(DiagnosticStatus.WARN, said), "a warning")
     assert status_values(adapter.reports[-1])["link"] == "connecting"
+    clock.move_on(1.5)
     said = "is connecting but no sample came for"
     bench.until(lambda: adapter.says(DiagnosticStatus.ERROR, said), "an error")
     reached.set()
@@ -289,7 +277,7 @@ def test_a_link_that_takes_its_time_is_said_to_be_connecting(bench, tmp_path, mo
     device.unplug()
 
 
-def test_readings_at_the_end_of_the_range_and_a_wrong_rate_are_reported(bench, tmp_path):
+def test_readings_at_the_end_of_the_range_and_a_wrong_rate_are_reported(bench, clock, tmp_path):
     path = tmp_path / "capture.bin"
     path.write_bytes(frames.stream("mcu", 300))
     values = {"checks.rate": 100.0, "checks.force_range": 15.0}

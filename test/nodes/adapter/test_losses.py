@@ -31,11 +31,14 @@ def mcu(k, fault="", shift_s=0.0):
     return frames.cobs(plain + struct.pack("<H", crc))
 
 
+ROUND, ROUNDS = 100, 10
+
+
 class Boards:
-    """Boards that send to the port of an adapter, 200 samples a second each."""
+    """Boards that send to the port of an adapter, 100 samples each from report to report."""
 
     def __init__(self, bench, options="", hosts=("127.0.0.1",), **values):
-        values = {"stamp": "header", "input.silence": 1.0, "reports.period": 1.0, **values}
+        values = {"stamp": "header", "reports.period": 60.0, **values}
         self.adapter = Adapter(bench, f"udp://127.0.0.1:0?format=mcu{options}", **values)
         self.source = self.adapter.node.device.source
         bench.until(lambda: self.source.state is State.CONNECTED, "the port")
@@ -44,19 +47,41 @@ class Boards:
             link.bind((host, 0))
         self.names = ["{}:{}".format(*link.getsockname()) for link in self.links]
         self.bench, self.sent, self.fault = bench, 0, lambda k: ""
-        self._probe = bench.plain("boards")
-        self._probe.create_timer(0.005, self._send)
+        self._datagrams = 0
 
     def _send(self):
         for n, link in enumerate(self.links):  # each with a clock and numbers of its own
             if (fault := self.fault(self.sent)) != "lost":
                 frame = mcu(self.sent + 7000 * n, fault, 5000.0 * n)
                 link.sendto(frame, ("127.0.0.1", self.source.transport.port))
+                self._datagrams += 1
         self.sent += 1
+
+    def _arrived(self):
+        counters = self.source.counters
+        return counters.get("datagrams", 0) + counters.get("foreign", 0) == self._datagrams
+
+    def send(self, count=ROUND):
+        """Send so many samples of each board, and wait until they have arrived."""
+        for k in range(count):
+            self._send()
+            if k % 10 == 9:
+                self.bench.until(self._arrived, "samples")
+
+    def rounds_until(self, condition, said):
+        """Send, and have it reported, until the condition holds."""
+        for _ in range(ROUNDS):
+            self.send()
+            before = len(self.adapter.reports)
+            self.adapter.node._reporter.report()
+            self.bench.until(lambda n=before: len(self.adapter.reports) > n, "a report")
+            if condition():
+                return
+        raise AssertionError(f"not after {ROUNDS} reports: {said}; {self.adapter.report()}")
 
     def until(self, level, words):
         """Wait for a report with that level and words, and return it."""
-        self.bench.until(lambda: self.adapter.says(level, words), words)
+        self.rounds_until(lambda: self.adapter.says(level, words), words)
         return self.adapter.report().message
 
     def close(self):
@@ -77,18 +102,21 @@ def boards(bench):
         each.close()
 
 
-def test_a_device_all_of_whose_samples_are_refused_is_not_said_to_be_silent(boards, capfd):
+def test_a_device_all_of_whose_samples_are_refused_is_not_said_to_be_silent(boards, clock, capfd):
     sending = boards()
-    sending.bench.until(lambda: sending.adapter.samples, "samples")
+    sending.send()
+    sending.bench.until(lambda: len(sending.adapter.samples) == ROUND, "samples")
     sending.fault = lambda k: "nan"
+    clock.move_on(5.0)
     said = sending.until(ERROR, "nothing that came can be used for")
     assert Refusal.NOT_FINITE.words in said and "silent" not in said
     assert "nothing that came can be used" in capfd.readouterr().err
 
 
-def test_a_device_that_never_sent_a_finite_sample_is_told_from_a_wrong_format(boards):
+def test_a_device_that_never_sent_a_finite_sample_is_told_from_a_wrong_format(boards, clock):
     sending = boards()
     sending.fault = lambda k: "nan"
+    clock.move_on(5.0)
     assert "check format" not in sending.until(ERROR, "nothing that came can be used for")
 
 
@@ -102,7 +130,7 @@ def test_a_device_that_never_sent_a_finite_sample_is_told_from_a_wrong_format(bo
     ],
 )
 def test_samples_that_are_refused_or_lost_are_a_warning_and_no_wrong_rate(
-    boards, fault, every, words
+    boards, clock, fault, every, words
 ):
     values = {"checks.rate": 200.0, "checks.rate_tolerance": 0.1, "checks.force_range": 1000.0}
     sending = boards(**values)
@@ -110,7 +138,7 @@ def test_samples_that_are_refused_or_lost_are_a_warning_and_no_wrong_rate(
     said = sending.until(DiagnosticStatus.WARN, words)
     assert said.startswith("lost or refused of ")
     check = sending.adapter.node.check
-    sending.bench.until(lambda: len(check._intervals) > 100, "intervals")
+    sending.rounds_until(lambda: len(check._intervals) > 100, "intervals")
     assert check.rate_hz == pytest.approx(200.0) and check.findings == []
 
 
@@ -132,26 +160,27 @@ def test_samples_of_a_topic_that_are_not_finite_make_no_lower_rate(bench):
     assert node.check.rate_hz == pytest.approx(200.0)
 
 
-def test_two_boards_on_one_port_are_named_with_what_to_do(boards, capfd):
+def test_two_boards_on_one_port_are_named_with_what_to_do(boards, clock, capfd):
     sending = boards(hosts=("127.0.0.1", "127.0.0.1"))
     said = sending.until(DiagnosticStatus.WARN, "2 devices send to one port")
     assert all(f"{name} (" in said for name in sending.names)
     assert "a port of its own" in said and "peers" in said
     assert status_values(sending.adapter.reports[-1])["senders"] == "2"
     sending.links.pop().close()
-    sending.bench.until(lambda: not sending.adapter.says(WARN, "2 devices"), "one board")
+    sending.rounds_until(lambda: not sending.adapter.says(WARN, "2 devices"), "one board")
     log = capfd.readouterr().err
     assert log.count("2 devices send to one port") == 1 and "lost on the way" not in log
 
 
-def test_datagrams_of_a_stranger_only_are_said_with_his_address(boards):
+def test_datagrams_of_a_stranger_only_are_said_with_his_address(boards, clock):
     sending = boards("&peers=127.0.0.7")
+    clock.move_on(5.0)
     said = sending.until(ERROR, "accepts nothing: it received ")
     assert "datagrams from 127.0.0.1," in said and "peers (127.0.0.7)" in said
     assert "from 127.0.0.1" in status_values(sending.adapter.reports[-1])["foreign senders"]
 
 
-def test_a_sensor_that_freezes_is_logged_once(bench, tmp_path, capfd):
+def test_a_sensor_that_freezes_is_logged_once(bench, clock, tmp_path, capfd):
     path = tmp_path / "capture.bin"
     path.write_bytes(frames.stream("mcu", 20) + frames.frame("mcu", 20) * 200)
     adapter = Adapter(bench, f"file://{path}?format=mcu&speed=0&follow=true")

@@ -1,19 +1,10 @@
 import json
 import signal
-from dataclasses import replace
 
 import pytest
 
 from dualfoot_ros.nodes.demo.__main__ import main
 from dualfoot_ros.recording import Recording, read_bag, write_bag
-
-
-@pytest.fixture(scope="module")
-def short_bag(walk_bag, tmp_path_factory):
-    """Return the first half minute of the walk, with truth."""
-    whole = read_bag(walk_bag)
-    cut = replace(whole, left=whole.left[:1800], right=whole.right[:1800])
-    return write_bag(tmp_path_factory.mktemp("bags") / "short", cut)
 
 
 def test_the_demonstration_prints_one_table_and_the_paths_of_its_plots(

@@ -12,7 +12,8 @@ from sensor_msgs.msg import Imu, MagneticField
 from dualfoot_ros.core import EventKind, TrackerConfig
 from dualfoot_ros.core.tracker import fields_of
 from dualfoot_ros.drivers import State
-from dualfoot_ros.nodes.demo.live_graph import run_live, run_offline, same_bits
+from dualfoot_ros.evaluation import track
+from dualfoot_ros.nodes.demo.live_graph import run_live, same_bits
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.playback.player import Sample
@@ -31,11 +32,11 @@ FEET = ("left", "right")
 
 @pytest.fixture(scope="module")
 def felt(tmp_path_factory):
-    """Return a bag of a short walk with a magnetometer on each foot."""
-    walk = WalkConfig(route="L", rate=60.0, standing=4.0, final_standing=1.0)
+    """Return a bag of the first half minute of a walk with a magnetometer on each foot."""
+    walk = WalkConfig(route="L", rate=60.0, standing=4.0)
     made = simulate(walk, seed=1, magnetometer=MagnetometerConfig())
     path = tmp_path_factory.mktemp("felt") / "walk"
-    return write_bag(path, Recording(made.left, made.right))
+    return write_bag(path, Recording(made.left[:1800], made.right[:1800]))
 
 
 def vector(message):
@@ -49,9 +50,8 @@ def test_a_walk_through_the_nodes_is_the_offline_run_to_the_bit(context, felt):
         for name, on in (("on", True), ("off", False))
     }
     live, recording = run_live(felt, configs, context), read_bag(felt)
-    series = {"left": recording.left, "right": recording.right}
     for name, config in configs.items():
-        batch = run_offline(series, config)
+        batch = track(recording, config)
         assert live[name].lost == 0
         assert same_bits(live[name].trajectory, batch)
         aids = live[name].trajectory.of_kind(EventKind.AID)
@@ -68,7 +68,8 @@ def test_replay_publishes_the_fields_of_a_bag_to_the_bit(bench, felt):
     for foot, found in got.items():
         name = f"{foot}/imu/mag"
         probe.create_subscription(MagneticField, name, found.append, qos.sensor(20_000))
-    replay = bench.add(ReplayNode, {"bag": str(felt), "play.rate": 1000.0, "play.delay": 0.5})
+    values = {"bag": str(felt), "play.rate": 1000.0, "play.wait": 0.0, "play.delay": 0.5}
+    replay = bench.add(ReplayNode, values)
     bench.until(replay.done.done, "the end of the bag")
     recording = read_bag(felt)
     for foot, field in fields_of(recording.left, recording.right).items():
@@ -201,9 +202,10 @@ def test_a_field_gets_the_stamp_its_sample_gets_and_none_before_that_is_known(be
     assert taken == [stamped + 7]
 
 
-def test_an_aid_without_a_field_is_said_for_each_foot(bench):
+def test_an_aid_without_a_field_is_said_for_each_foot(bench, clock):
     feet = Feet(bench, {**ON, "input.silence": 0.3}).connect()
     fields, quick = feet.fusion.fields.feet, InputConfig(silence=0.3)
+    clock.move_on(1.0)
     bench.until(lambda: all(each.complaint(quick) for each in fields.values()), "complaints")
     said = fields["right"].complaint(quick).text
     assert said.startswith("aids.magnetic_heading is on but there is no magnetic field of the r")
@@ -220,12 +222,13 @@ def test_without_the_aid_nobody_listens_to_the_field(bench):
 
 
 def test_bringup_records_the_field_that_fusion_uses(program, felt, tmp_path):
+    """No queue is shorter than the bag, so nothing is lost however slow the machine is."""
     target = tmp_path / "result"
     running = program(
         "bringup", "--ros-args", "-p", f"bag:={felt}", "-p", f"record:={target}",
         "-p", "play.rate:=8.0", "-p", "engine:=compiled", "-p", "aids.magnetic_heading:=true",
+        "-p", "input.depth:=10000",
     )  # fmt: skip
     assert running.code() == 0, running.output
     played, recorded = read_bag(felt).left.field, read_bag(target).left.field
-    assert len(recorded) > 0.5 * len(played)
-    assert set(map(tuple, recorded.tesla.tolist())) <= set(map(tuple, played.tesla.tolist()))
+    np.testing.assert_array_equal(recorded.tesla, played.tesla)

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from rclpy.node import Node
 
+from dualfoot_ros.inspection import FindingKind
 from dualfoot_ros.nodes.inputs.foot_streams import FootStreams
 from dualfoot_ros.nodes.ros.declared_parameters import declare
 from dualfoot_ros.nodes.ros.messages import imu_values
-from dualfoot_ros.nodes.ros.status import ERROR, FindingKind, Status
+from dualfoot_ros.nodes.ros.status import ERROR, Status
 from dualfoot_ros.settings import node_specs
 from dualfoot_ros.timing import StampConfig
 

@@ -1,10 +1,11 @@
 import numpy as np
 import pytest
 
+from dualfoot_ros.inspection import FindingKind
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.inputs.stamper import Stamper
-from dualfoot_ros.nodes.ros.status import ERROR, OK, WARN, FindingKind, Status
+from dualfoot_ros.nodes.ros.status import ERROR, OK, WARN, Status
 from dualfoot_ros.nodes.time_sync import TimeSyncNode
 from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
 from dualfoot_ros.timing import DeviceClockConfig, StampConfig
@@ -77,7 +78,8 @@ def test_a_skew_beyond_the_limit_is_reported_with_the_limit_and_no_stamp_is_give
     assert status.level == ERROR
     assert "left foot is off by 15" in status.message and "beyond 10000 ppm" in status.message
     (finding,) = status.of_kind(FindingKind.CLOCK_REFUSED)
-    assert finding.logged and finding.about == "left" and finding.text == status.message
+    assert finding.kind.logged_once and finding.about == "left"
+    assert finding.sentence == status.message
 
 
 def test_a_time_that_no_message_can_hold_is_refused_and_counted():

@@ -9,7 +9,7 @@ def said_about(samples):
     check = UnitCheck(warned.append, "left")
     for values in samples:
         check.add(list(values))
-    assert [finding.text for finding in check.findings] == warned
+    assert [finding.sentence for finding in check.findings] == warned
     return warned
 
 

@@ -2,6 +2,7 @@ import threading
 
 import numpy as np
 import pytest
+from processes import PATIENCE_S
 
 from dualfoot_ros.core.samples.series import ImuSeries
 from dualfoot_ros.nodes.playback.player import Player, in_order
@@ -18,7 +19,7 @@ def series(stamps):
 
 def played(player):
     player.start()
-    assert player.join(30.0)
+    assert player.join(PATIENCE_S)
 
 
 def test_samples_of_both_feet_come_in_the_order_of_their_time():
@@ -45,18 +46,17 @@ def test_everything_is_played_once_and_the_end_is_told():
 
 
 def test_a_gate_holds_back_the_next_sample():
-    got, tickets = [], [True] * 3
+    got, tickets, shut = [], [True] * 3, threading.Event()
     samples = {"left": series(range(0, 100, 10))}
 
     def gate():
+        if not tickets:
+            shut.set()
         return bool(tickets) and tickets.pop()
 
     player = Player(lambda: in_order(samples), got.append, FAST, gate=gate)
     player.start()
-    for _ in range(200):
-        threading.Event().wait(0.01)
-        if len(got) == 3:
-            break
+    assert shut.wait(PATIENCE_S)
     player.stop()
     assert len(got) == 3
 
@@ -75,7 +75,7 @@ def test_a_loop_goes_on_until_it_is_stopped():
         lambda: in_order(samples), publish, PlayConfig(rate=1000.0, wait=0.0, loop=True)
     )
     player.start()
-    assert enough.wait(30.0)
+    assert enough.wait(PATIENCE_S)
     player.stop()
     assert got[:6] == [0, 10, 20, 30, 40, 0]
 
@@ -86,13 +86,13 @@ def test_nothing_is_played_before_somebody_listens():
     player = Player(
         lambda: in_order(samples),
         got.append,
-        PlayConfig(rate=1000.0, wait=60.0),
+        PlayConfig(rate=1000.0, wait=3600.0),
         ready=listening.is_set,
     )
     player.start()
     assert got == []
     listening.set()
-    assert player.join(30.0)
+    assert player.join(PATIENCE_S)
     assert len(got) == 2
 
 

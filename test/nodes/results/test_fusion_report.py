@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import DualFootTracker, ImuPair, Refusal, TrackerConfig, Update
+from dualfoot_ros.inspection import Finding, FindingKind, Severity
 from dualfoot_ros.nodes.results.fusion_report import FusionReport
-from dualfoot_ros.nodes.ros.status import OK, WARN, Finding, FindingKind, Status
+from dualfoot_ros.nodes.ros.status import OK, WARN, Status
 from dualfoot_ros.timing import Aligner
 
 from ..samples import STANDING, STEP_NS
@@ -58,7 +59,7 @@ def fusion():
 def test_it_has_what_its_parts_describe():
     def describe(status):
         status.values["part"] = 7
-        status.note(Finding(FindingKind.SILENT, WARN, "the part is silent"))
+        status.note(Finding(FindingKind.SILENT, Severity.WARNING, "the part is silent"))
 
     status = Bench([SimpleNamespace(describe=describe)]).status()
     assert status.values["part"] == 7

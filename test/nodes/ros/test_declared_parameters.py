@@ -11,7 +11,7 @@ SPECS = {spec.name: spec for spec in all_specs()}
 
 
 def declared(bench, values=None):
-    node = bench.add(lambda **options: bench_node(**options), values)
+    node = bench.add(bench_node, values)
     return node, declare(node, SPECS.values())
 
 

@@ -1,11 +1,12 @@
 import pytest
 
+from dualfoot_ros.inspection import Finding, FindingKind, Severity
 from dualfoot_ros.nodes.ros.diagnostics import OVER_S, Beginnings, to_message
-from dualfoot_ros.nodes.ros.status import ERROR, OK, WARN, Finding, FindingKind, Status
+from dualfoot_ros.nodes.ros.status import ERROR, OK, WARN, Status
 
-STUCK = Finding(FindingKind.SENSOR_FAULT, WARN, "it is stuck", "stuck_sensor", logged=True)
-WORSE = Finding(FindingKind.SENSOR_FAULT, ERROR, "it is broken", "stuck_sensor", logged=True)
-OTHER = Finding(FindingKind.SENSOR_FAULT, WARN, "it is clipped", "clipped_force", logged=True)
+STUCK = Finding(FindingKind.STUCK, Severity.WARNING, "it is stuck", about="sensor")
+WORSE = Finding(FindingKind.STUCK, Severity.ERROR, "it is broken", "get one", "sensor")
+OTHER = Finding(FindingKind.STUCK, Severity.WARNING, "one axis is stuck", about="axis")
 
 
 def test_a_finding_is_logged_once_until_it_has_stayed_away():
@@ -22,7 +23,7 @@ def test_findings_of_one_kind_about_different_things_are_logged_each():
 
 
 def test_a_finding_that_is_for_the_report_only_is_not_logged():
-    only = Finding(FindingKind.NOT_BEGUN, WARN, "no sample yet", "/imu")
+    only = Finding(FindingKind.NOT_BEGUN, Severity.WARNING, "no sample yet", about="/imu")
     assert Beginnings().select([only], 0.0) == []
 
 
@@ -31,7 +32,7 @@ def test_a_finding_that_is_for_the_report_only_is_not_logged():
     [
         ([], OK, "ok"),
         ([STUCK, OTHER], WARN, "it is stuck"),
-        ([STUCK, OTHER, WORSE], ERROR, "it is broken"),
+        ([STUCK, OTHER, WORSE], ERROR, "it is broken; get one"),
     ],
 )
 def test_the_first_of_the_worst_findings_is_the_message(findings, level, message):

@@ -163,7 +163,7 @@ def test_repeated_samples_change_nothing():
     assert clock.epoch == 0
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(
     wrong=st.lists(st.integers(1500, 3900), min_size=1, max_size=8, unique=True),
     by=st.floats(0.05, 5000.0),

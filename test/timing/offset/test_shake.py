@@ -45,6 +45,10 @@ def with_shake(walk, late_s=0.0, regularity=0.03):
 def test_one_of_hundreds_of_equal_steps_is_no_shake(route, laps, seed):
     walk = walked(seed, route=route, laps=laps)
     assert find_shakes(walk.left, walk.right) == []
+
+
+def test_who_asks_for_a_shake_where_there_is_none_is_refused():
+    walk = walked(1, route="L")
     with pytest.raises(TimingError, match="no shake"):
         offset_by_motion(walk.left, walk.right, "shake")
 

@@ -1,0 +1,22 @@
+"""Findings on recordings and live streams: one class, one list of kinds, a function for each."""
+
+from .finding import Finding, Key, Severity
+from .finding_kinds import FindingKind
+from .recording_findings import check_usable, findings_of, qualities_of, require_usable
+from .stream_findings import STUCK_SHARE
+from .unit_findings import GRAVITY_ERROR
+from .walk_findings import walk_findings
+
+__all__ = [
+    "GRAVITY_ERROR",
+    "STUCK_SHARE",
+    "Finding",
+    "FindingKind",
+    "Key",
+    "Severity",
+    "check_usable",
+    "findings_of",
+    "qualities_of",
+    "require_usable",
+    "walk_findings",
+]

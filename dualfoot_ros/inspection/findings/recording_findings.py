@@ -1,0 +1,111 @@
+"""All findings on a recording, and the refusal of one that cannot be used.
+
+A new finding is one function in a module beside this one, and its place in a list below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+from ...core import FEET, ImuSeries, RecordingError
+from ...recording import Recording
+from ..field_facts import recorded_fields
+from ..quality import Quality, quality_of
+from .field_findings import field_findings
+from .finding import Finding
+from .finding_kinds import FindingKind
+from .pair_findings import find_different_rates, find_missing, find_no_overlap
+from .pressure_findings import pressure_findings
+from .sample_findings import (
+    LEAST_SAMPLES,
+    find_not_finite,
+    find_second_recording,
+    find_too_few,
+)
+from .stream_findings import (
+    find_bad_stamps,
+    find_clipping,
+    find_gaps,
+    find_late_standstill,
+    find_no_standstill,
+    find_stuck_values,
+)
+from .unit_findings import find_force_unit, find_rate_unit
+
+FootFindings = Callable[[str, Quality], Iterator[Finding]]
+PairFindings = Callable[[Quality, Quality], Iterator[Finding]]
+
+OF_SAMPLES: Sequence[FootFindings] = (find_not_finite, find_too_few, find_second_recording)
+OF_UNITS: Sequence[FootFindings] = (find_force_unit, find_rate_unit)
+OF_PAIR: Sequence[PairFindings] = (find_no_overlap, find_different_rates)
+OF_STREAM: Sequence[FootFindings] = (
+    find_stuck_values,
+    find_no_standstill,
+    find_late_standstill,
+    find_gaps,
+    find_bad_stamps,
+    find_clipping,
+)
+
+
+def require_usable(
+    recording: Recording, *, allow_not_finite: bool = False
+) -> tuple[ImuSeries, ImuSeries]:
+    """Return the samples of both feet; raise as :func:`check_usable`."""
+    check_usable(recording, allow_not_finite=allow_not_finite)
+    assert recording.left is not None and recording.right is not None
+    return recording.left, recording.right
+
+
+def check_usable(recording: Recording, *, allow_not_finite: bool = False) -> tuple[Finding, ...]:
+    """Return the warnings about a recording that can be used.
+
+    With ``allow_not_finite`` samples with nan or inf are left to be refused and counted.  Whether
+    there is a standstill is left to the tracker, whose parameters decide.
+
+    Raises
+    ------
+    RecordingError
+        With the sentence of the first other error that :func:`findings_of` has.
+    """
+    decided_later = {FindingKind.NO_STANDSTILL}
+    if allow_not_finite:
+        decided_later.add(FindingKind.NOT_FINITE)
+    findings = list(findings_of(recording))
+    for finding in findings:
+        if finding.is_error and finding.kind not in decided_later:
+            raise RecordingError(finding.sentence)
+    return tuple(finding for finding in findings if not finding.is_error)
+
+
+def findings_of(
+    recording: Recording, qualities: Mapping[str, Quality] | None = None
+) -> Iterator[Finding]:
+    """Yield every finding, the gravest first; ``qualities`` spares computing them again."""
+    yield from find_missing(recording)
+    if qualities is None:
+        qualities = qualities_of(recording)
+    usable = {foot: q for foot, q in qualities.items() if q.usable >= LEAST_SAMPLES}
+    yield from _of_feet(qualities, OF_SAMPLES)
+    yield from _of_feet(usable, OF_UNITS)
+    if len(usable) == len(FEET):
+        for find in OF_PAIR:
+            yield from find(usable["left"], usable["right"])
+    yield from _of_feet(usable, OF_STREAM)
+    yield from pressure_findings(recording.pressure, usable)
+    yield from field_findings(recorded_fields(recording))
+
+
+def _of_feet(
+    qualities: Mapping[str, Quality], functions: Sequence[FootFindings]
+) -> Iterator[Finding]:
+    """Yield what each function finds, foot by foot."""
+    for foot, quality in qualities.items():
+        for find in functions:
+            yield from find(foot, quality)
+
+
+def qualities_of(recording: Recording) -> dict[str, Quality]:
+    """Return the facts of each foot that is there and has samples."""
+    series = {foot: recording.imu(foot) for foot in FEET}
+    return {foot: quality_of(s) for foot, s in series.items() if s is not None and len(s)}

@@ -1,0 +1,94 @@
+"""Findings on the stream of a foot: stuck values, standstill, gaps, stamps, range."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..quality import Quality
+from ..stuck_values import Channel
+from .finding import Finding, Severity
+from .finding_kinds import FindingKind
+
+STUCK_SHARE = 0.1  # of the samples; with more, the recording is of no use
+LATE_STANDSTILL_S = 5.0
+
+
+def find_stuck_values(foot: str, quality: Quality) -> Iterator[Finding]:
+    """Yield a finding for each channel that repeats itself."""
+    for stuck in quality.stuck:
+        whole = stuck.what is Channel.SENSOR
+        subject = "the sensor repeats itself" if whole else f"{stuck.what} is stuck"
+        times = "once" if stuck.times == 1 else f"{stuck.times} times"
+        yield Finding(
+            FindingKind.STUCK,
+            Severity.ERROR if stuck.share > STUCK_SHARE else Severity.WARNING,
+            f"{foot} foot: {subject} {times}, first {stuck.first_s:.1f} s after the start and for "
+            f"up to {stuck.longest_s:.2f} s ({stuck.share:.1%} of the samples have not changed)",
+            "check the sensor and its driver, which may fill gaps with old values",
+            f"{foot}/{stuck.what}",
+        )
+
+
+def find_no_standstill(foot: str, quality: Quality) -> Iterator[Finding]:
+    """Yield a finding when the foot never stands still."""
+    if quality.stand is None:
+        yield Finding(
+            FindingKind.NO_STANDSTILL,
+            Severity.ERROR,
+            f"{foot} foot: there is no standstill of some seconds, without which neither the gyro "
+            "bias nor up and down are known",
+            "stand still with both feet on the ground for 5 s before walking",
+            foot,
+        )
+
+
+def find_late_standstill(foot: str, quality: Quality) -> Iterator[Finding]:
+    """Yield a finding when the foot stands still long after the start only."""
+    stand = quality.stand
+    if stand is not None and stand.start_s > LATE_STANDSTILL_S:
+        yield Finding(
+            FindingKind.LATE_STANDSTILL,
+            Severity.WARNING,
+            f"{foot} foot: the first standstill begins {stand.start_s:.1f} s after the start; "
+            "what is before it is not tracked",
+            about=foot,
+        )
+
+
+def find_gaps(foot: str, quality: Quality) -> Iterator[Finding]:
+    """Yield a finding when samples are missing in between."""
+    if quality.gaps:
+        yield Finding(
+            FindingKind.GAPS,
+            Severity.WARNING,
+            f"{foot} foot: {quality.gaps} gaps, the longest {quality.longest_gap_s:.3f} s; "
+            "samples are not interpolated across them, and a gap within a step harms the track",
+            "check the link of the sensor and the load of the host",
+            foot,
+        )
+
+
+def find_bad_stamps(foot: str, quality: Quality) -> Iterator[Finding]:
+    """Yield a finding when stamps repeat or go back."""
+    if quality.duplicate or quality.out_of_order:
+        yield Finding(
+            FindingKind.STAMPS,
+            Severity.WARNING,
+            f"{foot} foot: {quality.duplicate} duplicate and {quality.out_of_order} out-of-order "
+            "stamps are left out",
+            about=foot,
+        )
+
+
+def find_clipping(foot: str, quality: Quality) -> Iterator[Finding]:
+    """Yield a finding when values stay at the end of the sensor's range."""
+    if quality.clipped_force or quality.clipped_rate:
+        yield Finding(
+            FindingKind.CLIPPING,
+            Severity.WARNING,
+            f"{foot} foot: the sensor clips ({quality.clipped_force} samples at "
+            f"{quality.peak_force:.4g} m/s^2, {quality.clipped_rate} at {quality.peak_rate:.4g} "
+            "rad/s)",
+            "choose a wider range",
+            foot,
+        )

@@ -296,6 +296,15 @@ class DualFootTracker:
             "still with both feet on the ground at the start, and check units and axes"
         )
 
+    def _start_late(self, stamp_ns: int) -> Update | None:
+        """Start from what is there when no pair follows that of ``stamp_ns``."""
+        start = self._alignment.finish() if self._session is None else None
+        if start is None or not start.waiting:
+            return None
+        session = self._begin_session(start)
+        self._pending.append(session.aligned_event(stamp_ns))
+        return self._catch_up(session, start)
+
     def _run(
         self, stamps: IntArray, values: FloatArray
     ) -> tuple[IntArray, FloatArray, list[Event]]:
@@ -323,15 +332,12 @@ class DualFootTracker:
             if update.refused is None:
                 taken.append(k)
             if any(event.kind is EventKind.RESET for event in update.announced):
-                kept[:k] = False
+                kept[:k], taken = False, taken[-1:]
                 events.clear()
-                taken = taken[-1:]
             _keep(update, taken, out, kept, events)
             k += 1
-        if self._session is None and (start := self._alignment.finish()) and start.waiting:
-            session = self._begin_session(start)
-            self._pending.append(session.aligned_event(int(stamps[taken[-1]])))
-            _keep(self._catch_up(session, start), taken, out, kept, events)
+        if taken and (update := self._start_late(int(stamps[taken[-1]]))) is not None:
+            _keep(update, taken, out, kept, events)
         first = int(np.argmax(kept)) if kept.any() else count
         if kept[first:].all():
             return stamps[first:], out[first:], events

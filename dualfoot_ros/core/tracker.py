@@ -336,18 +336,23 @@ class DualFootTracker:
                 events.clear()
             _keep(update, taken, out, kept, events)
             k += 1
-        if taken and (update := self._start_late(int(stamps[taken[-1]]))) is not None:
-            _keep(update, taken, out, kept, events)
-        first = int(np.argmax(kept)) if kept.any() else count
-        if kept[first:].all():
-            return stamps[first:], out[first:], events
-        return stamps[kept], out[kept], events
+        if taken and (late := self._start_late(int(stamps[taken[-1]]))) is not None:
+            _keep(late, taken, out, kept, events)
+        return *_only(kept, stamps, out), events
 
 
 def fields_of(left: ImuSeries, right: ImuSeries) -> dict[str, FieldSeries]:
     """Return the magnetic field of the feet that have one."""
     found = zip(FEET, (left.field, right.field), strict=True)
     return {foot: field for foot, field in found if field is not None and len(field)}
+
+
+def _only(kept: BoolArray, stamps: IntArray, out: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Return the rows that are kept, without a copy where they are all from some row on."""
+    first = int(np.argmax(kept)) if kept.any() else len(kept)
+    if kept[first:].all():
+        return stamps[first:], out[first:]
+    return stamps[kept], out[kept]
 
 
 def _keep(

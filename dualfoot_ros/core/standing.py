@@ -28,7 +28,7 @@ class Stands:
     def __init__(self, config: TrackerConfig, space: Workspace) -> None:
         """Start with no window."""
         self._config, self._space = config, space
-        self._stands = [FootStand(config.alignment, overlap=1) for _ in range(2)]
+        self._stands = [FootStand(config.alignment) for _ in range(2)]
         self._newest: list[Window | None] = [None, None]
 
     def take(self, foot: int, stamp_ns: int) -> None:

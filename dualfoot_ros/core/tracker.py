@@ -290,6 +290,8 @@ class DualFootTracker:
         return to_trajectory(stamps, rows, tuple(events), self.counters, self.config.method)
 
     def _no_start(self, left: ImuSeries) -> str:
+        if self._alignment.finish() is not None:
+            return f"the recording is {left.duration_s:.1f} s long and ends while the feet stand"
         seen = self.complaint or f"the recording is {left.duration_s:.1f} s long"
         return (
             f"neither a standstill of both feet nor a stance of each was found ({seen}); stand "

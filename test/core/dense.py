@@ -18,6 +18,7 @@ from dualfoot_ros.core.kernel import layout as lay
 
 from .harness import cross_matrix
 
+AS_THE_PAPER = {"zupt.heading_correction": "full", "zupt.std_rate": 0.0}
 POS, VEL, ATT, BG, BA = (slice(3 * i, 3 * i + 3) for i in range(5))
 
 
@@ -50,6 +51,20 @@ def joseph(P, H, R, y) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
     K = np.linalg.solve(S, H @ P).T
     J = np.eye(len(P)) - K @ H
     return K @ y, J @ P @ J.T + K @ R @ K.T, S, float(y @ np.linalg.solve(S, y))
+
+
+def considering(P, H, R, y, T) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """Return (error, P, K, NIS) of an update that takes the combinations ``T`` (n, c) as known.
+
+    The gain is that of a filter without the uncertainty that T explains; P is carried in Joseph's
+    form, which holds for any gain.
+    """
+    known = P @ T
+    left = P - known @ np.linalg.solve(T.T @ P @ T, known.T)
+    K = np.linalg.solve(H @ left @ H.T + R, H @ left).T
+    J = np.eye(len(P)) - K @ H
+    nis = float(y @ np.linalg.solve(H @ left @ H.T + R, y))
+    return K @ y, J @ P @ J.T + K @ R @ K.T, K, nis
 
 
 @dataclass

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 
 from dualfoot_ros.core import ImuPair, ImuSeries, TrackerConfig
-from dualfoot_ros.core.alignment import Standstill
+from dualfoot_ros.core.alignment import Alignment
 from dualfoot_ros.core.compiler import compiled
 from dualfoot_ros.core.kernel import Engine, interpreted
 from dualfoot_ros.core.kernel import layout as lay
@@ -92,13 +92,15 @@ def open_session(
     config: TrackerConfig, pairs: Pairs, engine: Engine | None = None, seconds: float = 3.0
 ) -> tuple[Session, int]:
     """Align on the first ``seconds``; return the session and the index of the next sample."""
-    rate = 1e9 / float(np.median(np.diff(pairs.stamps)))
-    still = Standstill(config.alignment, config.gravity, rate)
-    count = round(seconds * rate)
-    for row in pairs.values[:count]:
-        still.add(row)
-    assert still.ready, still.complaint
-    return Session(config, engine or quick_engine(), still, rate), count
+    count = round(seconds * 1e9 / float(np.median(np.diff(pairs.stamps))))
+    alignment, start = Alignment(config), None
+    for stamp, row in zip(pairs.stamps[:count].tolist(), pairs.values[:count], strict=True):
+        if start is None:
+            start = alignment.add(stamp, row)
+        elif alignment.refine(stamp, row):
+            start = replace(start, feet=alignment.result())
+    assert start is not None, alignment.complaint
+    return Session(config, engine or quick_engine(), start, alignment), count
 
 
 def follow(session: Session, pairs: Pairs, start: int) -> Iterator[tuple[int, list]]:

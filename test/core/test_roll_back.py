@@ -71,7 +71,7 @@ def test_a_constraint_at_an_earlier_moment_equals_having_applied_it_then(back, s
         due[epoch] = due.get(epoch, 0) + 1
     for epoch, _ in follow(again, pairs, start):
         for _ in range(due.get(epoch, 0)):
-            assert method.apply(again._estimate).accepted
+            method.apply(again._estimate)
             again._roll_back._actions.append((epoch, method.apply))
     assert state_bits(again.space.w) == state_bits(session.space.w)
 
@@ -97,7 +97,12 @@ def test_a_refused_constraint_leaves_the_state_as_it_was_to_the_bit():
 # --- gait phases -------------------------------------------------------------------------------
 
 RATE = 50.0
-PHASES = {"stance.min_stance": 0.1, "stance.min_swing": 0.16, "stance.window": 0.04}
+PHASES = {
+    "stance.detector": "fixed",
+    "stance.min_stance": 0.1,
+    "stance.min_swing": 0.16,
+    "stance.window": 0.04,
+}
 MIN_STANCE, MIN_SWING, WINDOW = 5, 8, 2
 MEMORY = {"method": "idc", "idc.kappa": 0.0, "idc.max_stance": 3.0, **AS_IS, **PHASES}
 

@@ -71,5 +71,5 @@ def test_a_tracker_that_stands_keeps_refining_and_says_so():
 def test_the_bias_found_while_standing_is_the_sensors_own():
     made = simulated(route="standing", standing=20.0, final_standing=0.5, rate=100.0, seed=1)
     session, _ = open_session(TrackerConfig(), standing(1, 20.0), seconds=20.0)
-    for still, series in zip(session._still.result(), (made.left, made.right), strict=True):
+    for still, series in zip(session._start.feet, (made.left, made.right), strict=True):
         assert np.abs(still.angular_rate - series.angular_rate.mean(axis=0)).max() < 1e-3

@@ -8,7 +8,7 @@ import pytest
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.kernel import layout as lay
 
-from .dense import DenseFoot
+from .dense import AS_THE_PAPER, DenseFoot
 from .harness import open_session, walk
 
 
@@ -46,6 +46,7 @@ def settled_walk(config: TrackerConfig, seconds: float):
 def test_the_joint_filter_without_constraint_equals_two_filters(lever_arm):
     config = TrackerConfig.from_mapping(
         {
+            **AS_THE_PAPER,
             "method": "zupt",
             "heading.source": "sensor",
             "zupt.lever_arm": lever_arm,

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..config_groups import AlignmentConfig
 from ..samples.series import FloatArray
-from .window import SLIDES, Window
+from .window import Window
 
 MEMORY_S = 30.0  # what is older than that fades: biases drift
 UPRIGHT = 0.95  # cosine to the vertical, from which an axis has no heading
@@ -73,14 +73,15 @@ class FootStand:
     Updated as in West 1979 (Communications of the ACM 22(9)), with weights that fade.
     """
 
-    def __init__(self, config: AlignmentConfig, overlap: int = SLIDES) -> None:
-        """Start empty; of ``overlap`` windows one is independent."""
-        self._floor, self._overlap = config.still_rate_std, overlap
+    def __init__(self, config: AlignmentConfig) -> None:
+        """Start empty."""
+        self._floor = config.still_rate_std
         self.clear()
 
     def clear(self) -> None:
         """Forget the windows."""
         self.count = 0
+        self._after_first_s = 0.0
         self._weight = self._squares = 0.0
         self._mean, self._spread = np.zeros(6), np.zeros(6)
         # variance of the windows' means (rate, force) by what happens within them
@@ -89,7 +90,9 @@ class FootStand:
 
     def add(self, window: Window) -> None:
         """Take a window."""
-        keep = math.exp(-window.seconds / self._overlap / MEMORY_S)
+        step_s = self._step_s(window)
+        self._after_first_s += step_s
+        keep = math.exp(-step_s / MEMORY_S)
         scatter = np.array([window.rate_std])
         weight = float(stillness(scatter, self._floor)[0])
         self._weight = keep * self._weight + weight
@@ -102,12 +105,16 @@ class FootStand:
         self._newest = window
         self.count += 1
 
-    @property
-    def seconds(self) -> float:
-        """Length of the stand, s."""
+    def _step_s(self, window: Window) -> float:
+        """Return by how much the stand grows with ``window``, s."""
         if self._newest is None:
             return 0.0
-        return self._newest.seconds * (1.0 + (self.count - 1) / self._overlap)
+        return min(window.seconds, (window.end_ns - self._newest.end_ns) * 1e-9)
+
+    @property
+    def seconds(self) -> float:
+        """Length of the stand, as far as it was still, s."""
+        return 0.0 if self._newest is None else self._newest.seconds + self._after_first_s
 
     def result(self) -> FootStandstill:
         """Return what the stand tells; windows overlap, so not all are independent.
@@ -116,7 +123,8 @@ class FootStand:
         them, what happens within the windows says it.
         """
         assert self._newest is not None
-        windows = max(1.0, self._weight**2 / self._squares / self._overlap)
+        alike = self._weight**2 / self._squares  # windows of equal weight that would say as much
+        windows = max(1.0, alike * self.seconds / (self.count * self._newest.seconds))
         variance = self._spread / self._weight
         between = float(variance[3:].max()) / max(1.0, windows - 1.0)
         tilts = 0.5 * float(variance[:3].sum())  # two axes: along gravity next to nothing

@@ -22,7 +22,7 @@ from .first_stance import FirstStances
 from .foot_stand import FootStand, FootStandstill
 from .prior import BiasPrior
 from .sampling_rate import SamplingRate
-from .window import SLIDES, Window, WindowSlider
+from .window import Window, WindowSlider
 
 SHORTEST_S = 0.5  # of a stand that is used
 UNKNOWN_BIAS = BiasPrior(np.zeros(3), 0.03)  # rad/s, of consumer sensors at turn-on
@@ -67,6 +67,7 @@ class FootWatch:
         self.complaint: str | None = None
         self.still = False
         self.quiet_s = 0.0
+        self._last_ns = 0
         self.restarts = 0
         self.refining = False
 
@@ -96,7 +97,8 @@ class FootWatch:
         elif not self.refining:
             self.restarts += self.stand.count > 0
             self.stand.clear()
-        step = self._slider.step_s
+        step = (window.end_ns - self._last_ns) * 1e-9
+        self._last_ns = window.end_ns
         quiet = self.complaint is None and window.quiet(config.alignment)
         self.quiet_s = (self.quiet_s + step if self.quiet_s else window.seconds) if quiet else 0.0
 
@@ -170,9 +172,14 @@ class Alignment:
         for watch in self._watches:
             watch.refining = True
         self._look(stamp_ns, values)
-        length = min(watch.stand.count for watch in self._watches) // SLIDES
+        length = self._windows()
         more, self._levelled = length > self._levelled, length
         return more
+
+    def _windows(self) -> int:
+        """Return how many windows the stand of both feet is long."""
+        shortest_s = min(watch.stand.seconds for watch in self._watches)
+        return int(shortest_s / self._config.alignment.window)
 
     def _look(self, stamp_ns: int, values: FloatArray) -> bool:
         """Take a pair; return whether a window of either foot ended with it."""
@@ -218,5 +225,5 @@ class Alignment:
         rate_hz = self.rate.hz
         if rate_hz is None or feet is None:
             return None
-        self._levelled = min(watch.stand.count for watch in self._watches) // SLIDES
+        self._levelled = self._windows()
         return Start(kind, self._combined(feet), rate_hz, tuple(self._waiting))

@@ -85,11 +85,6 @@ class WindowSlider:
         self._samples: deque[tuple[int, FloatArray]] = deque()
         self._due_ns: int | None = None
 
-    @property
-    def step_s(self) -> float:
-        """Time from one window to the next, s."""
-        return self._step_ns * 1e-9
-
     def add(self, stamp_ns: int, values: FloatArray) -> Window | None:
         """Take a sample (6,); return the window that ends with it, when one is due."""
         samples = self._samples
@@ -102,7 +97,7 @@ class WindowSlider:
             return None
         if self._due_ns is not None and stamp_ns < self._due_ns:
             return None
-        self._due_ns = stamp_ns + self._step_ns
+        self._due_ns = max(self._due_ns or stamp_ns, stamp_ns - self._step_ns) + self._step_ns
         block = np.array([sample for _, sample in samples])
         return Window.of(block, stamp_ns, self._length_ns * 1e-9)
 

@@ -108,7 +108,13 @@ def test_with_known_attitude_it_is_the_papers_linear_filter():
             "method": "rigid_pair",
             "rigid_pair.lever_arm": arm.tolist(),
             "heading.source": "sensor",
-            "zupt": {"lever_arm": 0.0, "lever_back": 0.0, "rate_std": 0.0, "still_after": 1e6},
+            "zupt": {
+                "lever_arm": 0.0,
+                "lever_back": 0.0,
+                "rate_std": 0.0,
+                "still_after": 1e6,
+                "std_rate": 0.0,
+            },
             "stance": {"min_stance": 0.0, "min_swing": 0.0},
         }
     )

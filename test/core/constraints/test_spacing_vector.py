@@ -29,7 +29,9 @@ spacings = st.floats(0.05, 0.4)
 
 
 def method(**options) -> SpacingVector:
-    return SpacingVector(SpacingVectorConfig(**options))
+    """Return the method as the paper has it, but for ``options``."""
+    paper = {"height_std": 0.0, "heading_correction": "full"}
+    return SpacingVector(SpacingVectorConfig(**{**paper, **options}))
 
 
 @given(seeds, headings, spacings)
@@ -75,6 +77,36 @@ def test_height_is_not_observed(seed, heading):
     height = estimate.position(0)[2]
     method(spacing=0.2).apply(estimate, heading)
     assert estimate.position(0)[2] == pytest.approx(height, abs=1e-12)
+
+
+@given(seeds, headings, st.floats(0.01, 0.2), st.floats(0.05, 0.5))
+@settings(max_examples=20, deadline=None)
+def test_the_difference_in_height_is_one_row_more(seed, heading, std, height_std):
+    space, estimate = apart(seed, 0.5)
+    before, P, r = states(space), space.covariance(), separation(estimate)
+    method(spacing=0.2, spacing_std=std, height_std=height_std).apply(estimate, heading)
+    H = np.zeros((3, 30))
+    H[:, 0:3], H[:, 15:18] = np.eye(3), -np.eye(3)
+    y = r - 0.2 * np.array([-math.sin(heading), math.cos(heading), 0.0])
+    R = np.diag([std**2, std**2, height_std**2])
+    assert_dense_update(before, P, space, H, R, y)
+
+
+@given(seeds, headings)
+@settings(max_examples=20, deadline=None)
+def test_a_correction_of_the_difference_does_not_move_the_pair(seed, heading):
+    """It only pulls the feet to each other: the way and the heading in common stay."""
+    space, estimate = apart(seed, 0.5)
+    weights = np.diag(space.covariance())
+    a = weights[0:3] / (weights[0:3] + weights[15:18])
+
+    def middle():
+        return (1.0 - a) * estimate.position(0) + a * estimate.position(1)
+
+    before = middle()
+    method(spacing=0.2, heading_correction="difference", height_std=0.15).apply(estimate, heading)
+    assert np.allclose(middle(), before, atol=1e-9)
+    assert_covariance(space.covariance())
 
 
 @given(seeds, headings, st.floats(0.01, 0.2))

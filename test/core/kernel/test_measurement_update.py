@@ -8,16 +8,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dualfoot_ros.core import TrackerConfig
-from dualfoot_ros.core.joint_estimate import JointEstimate
+from dualfoot_ros.core.joint_estimate import HeadingCorrection, JointEstimate
 from dualfoot_ros.core.kernel import interpreted
 from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.kernel.measurement_update import zupt
 from dualfoot_ros.core.kernel.strapdown import mechanize
 
-from ..dense import joseph
+from ..dense import AS_THE_PAPER, considering, joseph
 from .states import SAMPLE, error_between, nominal, put_error, random_workspace, set_covariance
 
 seeds = st.integers(0, 10_000)
+CONFIG = TrackerConfig.from_mapping({"method": "zupt", **AS_THE_PAPER})
 
 
 def scaled(difference: np.ndarray, P: np.ndarray) -> float:
@@ -35,7 +36,7 @@ def errors_taken_off(before: np.ndarray, after: np.ndarray) -> np.ndarray:
 
 def moving(seed: int):
     """Return a random workspace whose last rates are those of its sample."""
-    space = random_workspace(seed)
+    space = random_workspace(seed, CONFIG)
     for foot in range(2):
         mechanize(space.w, foot, 0.01, SAMPLE + 6 * foot)
     return space
@@ -72,7 +73,7 @@ def test_the_row_of_a_zero_velocity_update_is_the_derivative_of_the_pivot_veloci
 @settings(max_examples=40, deadline=None)
 def test_a_zero_velocity_update_is_the_dense_joseph_update(seed, foot):
     space = moving(seed)
-    before, P, config = space.w.copy(), space.covariance(), TrackerConfig()
+    before, P, config = space.w.copy(), space.covariance(), CONFIG
     innovation = pivot_velocity(before, foot)
     rate = before[foot * lay.FOOT + lay.RATE : foot * lay.FOOT + lay.RATE + 3]
     zupt(space.w, foot)
@@ -112,7 +113,7 @@ def test_one_to_three_rows_at_once_are_the_dense_joseph_update(seed, rows, std):
 def test_standing_still_considers_position_heading_and_the_other_foot(seed, foot):
     """A Schmidt update: the optimal gain with the rows of the considered states set to zero."""
     space = moving(seed)
-    before, P, z = space.w.copy(), space.covariance(), TrackerConfig().zupt
+    before, P, z = space.w.copy(), space.covariance(), CONFIG.zupt
     innovation = pivot_velocity(before, foot)
     rate = before[foot * lay.FOOT + lay.RATE : foot * lay.FOOT + lay.RATE + 3]
     zupt(space.w, foot, True)
@@ -129,6 +130,69 @@ def test_standing_still_considers_position_heading_and_the_other_foot(seed, foot
     error = K @ innovation
     taken = errors_taken_off(before, space.w)
     assert np.allclose(taken, error, rtol=1e-8, atol=1e-11 * np.abs(error).max())
+
+
+def known_alone(*states: int) -> np.ndarray:
+    """Return T (30, c) of error states that are known each for itself."""
+    return np.eye(30)[:, list(states)]
+
+
+HEADINGS_AND_BIASES = [8, 9, 10, 11, 23, 24, 25, 26]
+
+
+@given(seeds, st.sampled_from((0, 1)))
+@settings(max_examples=40, deadline=None)
+def test_a_zero_velocity_update_leaves_heading_and_bias_alone_and_carries_their_uncertainty(
+    seed, foot
+):
+    space = moving(seed)
+    space.w[lay.C_ZUPT_CONSIDERS], space.w[lay.C_BIAS_KNOWN_VAR] = 1.0, np.inf
+    before, P, z = space.w.copy(), space.covariance(), CONFIG.zupt
+    innovation = pivot_velocity(before, foot)
+    rate = before[foot * lay.FOOT + lay.RATE : foot * lay.FOOT + lay.RATE + 3]
+    zupt(space.w, foot)
+    H = np.zeros((3, 30))
+    H[:, 15 * foot : 15 * foot + 15] = space.w[lay.S_H : lay.S_H + 96].reshape(3, 32)[
+        :, 16 * foot : 16 * foot + 15
+    ]
+    R = np.eye(3) * (z.std**2 + z.rate_std**2 * rate @ rate)
+    error, after, gain, nis = considering(P, H, R, innovation, known_alone(*HEADINGS_AND_BIASES))
+    assert np.abs(gain[HEADINGS_AND_BIASES]).max() < 1e-9
+    assert scaled(space.covariance() - after, P) < 1e-8
+    assert np.allclose(
+        errors_taken_off(before, space.w), error, rtol=1e-6, atol=1e-8 * np.abs(error).max()
+    )
+    info = space.w[lay.Z_LEFT + foot * lay.ZUPT_INFO :][: lay.ZUPT_INFO]
+    assert info[12] == pytest.approx(nis, rel=1e-6)
+
+
+def in_common(P: np.ndarray) -> np.ndarray:
+    """Return T (30, 10) of the gyro biases, and of heading and position that both feet share."""
+    T = np.zeros((30, 10))
+    T[:, :6] = known_alone(9, 10, 11, 24, 25, 26)
+    for k, state in enumerate((8, 0, 1, 2)):
+        a = P[state, state] / (P[state, state] + P[state + 15, state + 15])
+        T[state, 6 + k], T[state + 15, 6 + k] = 1.0 - a, a
+    return T
+
+
+@given(seeds, st.integers(1, 3), st.floats(0.05, 1.0))
+@settings(max_examples=40, deadline=None)
+def test_a_correction_between_the_feet_leaves_what_they_have_in_common(seed, rows, std):
+    rng, space = np.random.default_rng(seed), random_workspace(seed)
+    before, P = space.w.copy(), space.covariance()
+    H, y = rng.normal(size=(rows, 30)), rng.normal(size=rows) * 0.1
+    T = in_common(P)
+    estimate = JointEstimate(space, interpreted())
+    rows_of_h = [dict(enumerate(h)) for h in H]
+    _, nis = estimate.update(rows_of_h, y, [std**2] * rows, HeadingCorrection.DIFFERENCE)
+    error, after, gain, nis_dense = considering(P, H, np.eye(rows) * std**2, y, T)
+    assert nis == pytest.approx(nis_dense, rel=1e-5)
+    assert np.abs(T.T @ gain).max() < 1e-7 * np.abs(gain).max()
+    assert scaled(space.covariance() - after, P) < 1e-7
+    taken = errors_taken_off(before, space.w)
+    assert np.allclose(taken, error, rtol=1e-5, atol=1e-7 * np.abs(error).max())
+    assert np.linalg.eigvalsh(space.covariance()).min() > 0.0
 
 
 @pytest.mark.parametrize("still", (False, True))

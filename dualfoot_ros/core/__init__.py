@@ -1,6 +1,6 @@
 """The navigation itself: no I/O, no logging, no clock, no global state."""
 
-from .alignment import stillness
+from .alignment import BiasPrior, stillness
 from .config import GROUPS, TrackerConfig, all_specs, method_parameters, nested
 from .config_groups import AlignmentConfig, NoiseConfig
 from .constraints import METHODS
@@ -77,6 +77,7 @@ __all__ = [
     "STANDARD_GRAVITY",
     "AlignmentConfig",
     "AlignmentError",
+    "BiasPrior",
     "BoolArray",
     "CalibrationError",
     "ConfigError",

@@ -9,8 +9,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from dualfoot_ros.core import ConfigError, DualFootTracker, EventKind, ImuPair, TrackerConfig
-from dualfoot_ros.core.alignment import BiasPrior
+from dualfoot_ros.core import (
+    BiasPrior,
+    ConfigError,
+    DualFootTracker,
+    EventKind,
+    ImuPair,
+    TrackerConfig,
+)
 from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.results.events import FEET
 

@@ -2,6 +2,7 @@
 
 from ..core import CalibrationError
 from .accelerometer import MODELS, AccelerometerFit, fit_accelerometer, rms, why_not
+from .bias_memory import BiasMemory, RememberedStand, stands_in, stands_of
 from .cross_validation import CrossValidation, cross_validate
 from .feet import calibrated, for_feet, sensor_calibration
 from .file import ANY, Calibration
@@ -17,10 +18,12 @@ __all__ = [
     "ANY",
     "MODELS",
     "AccelerometerFit",
+    "BiasMemory",
     "Calibration",
     "CalibrationError",
     "CrossValidation",
     "GyroFit",
+    "RememberedStand",
     "Segment",
     "SensorCalibration",
     "SpacingFit",
@@ -37,6 +40,8 @@ __all__ = [
     "rms",
     "segments_of",
     "sensor_calibration",
+    "stands_in",
+    "stands_of",
     "still_spans",
     "why_not",
 ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +23,7 @@ from .arguments import (
 from .printing import print_json, print_paths, table_console
 
 if TYPE_CHECKING:
+    from ..calibration import BiasMemory
     from ..evaluation import Evaluation, RunOptions
     from ..recording import Correction
 
@@ -36,6 +38,7 @@ examples:
   dualfoot evaluate lap --set aids.magnetic_heading=true   heading from its magnetic field
   dualfoot evaluate walk --reference markers.yaml   floor markers that are not in the bag's folder
   dualfoot evaluate walk --align umeyama4           best fit over the whole walk
+  dualfoot evaluate walk --bias-memory shoes.yaml   use and keep the gyro biases of these sensors
   dualfoot evaluate walk --calibration both.yaml    correct the samples first
   dualfoot evaluate walk --calibration left=l.yaml --calibration right=r.yaml
 """
@@ -52,6 +55,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         help="calibration file of 'dualfoot calibrate', or left=FILE, right=FILE; may be repeated",
+    )
+    parser.add_argument(
+        "--bias-memory",
+        metavar="FILE",
+        type=Path,
+        help="gyro biases that earlier walks of these sensors told; what this one tells is added",
     )
     add_report_arguments(parser)
     add_json_argument(parser)
@@ -90,13 +99,14 @@ def _add_alignment(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Evaluate, write, print; return the exit code."""
     from .. import evaluation
-    from ..calibration import for_feet
+    from ..calibration import BiasMemory, for_feet
     from ..evaluation.reports import check_directory
 
     if args.output is not None:
         check_directory(args.output)
     calibration = for_feet(args.calibration)
-    options = _options(args, calibration)
+    memory = BiasMemory() if args.bias_memory is None else BiasMemory.load(args.bias_memory)
+    options = replace(_options(args, calibration), priors=memory.priors())
     config = tracker_config(args)
     result = evaluation.run(load_bag(args.bag, args), config, options)
     metrics = {
@@ -106,8 +116,20 @@ def run(args: argparse.Namespace) -> int:
         "calibration": {foot: list(c.triads()) for foot, c in calibration.items()},
     }
     paths = [] if args.output is None else _write(args, result, metrics)
+    _remember(args.bias_memory, memory, result)
     _print(args, result, {**metrics, "files": [str(path) for path in paths]}, paths)
     return 0
+
+
+def _remember(path: Path | None, memory: BiasMemory, result: Evaluation) -> None:
+    """Add to the memory what the stands of the walk have told, if there is one."""
+    from ..calibration import stands_of
+
+    if path is None:
+        return
+    for foot, stand in stands_of(result.trajectory).items():
+        memory.remember(foot, stand)
+    memory.save(path)
 
 
 def _options(args: argparse.Namespace, calibration: Mapping[str, Correction]) -> RunOptions:

@@ -1,6 +1,6 @@
 """The navigation itself: no I/O, no logging, no clock, no global state."""
 
-from .alignment import BiasPrior, stillness
+from .alignment import BiasPrior, bias_after, stillness
 from .config import GROUPS, TrackerConfig, all_specs, method_parameters, nested
 from .config_groups import AlignmentConfig, NoiseConfig
 from .constraints import METHODS
@@ -123,6 +123,7 @@ __all__ = [
     "about_z",
     "all_specs",
     "axes_matrix",
+    "bias_after",
     "check",
     "clean_stance",
     "dot",

@@ -28,6 +28,11 @@ class AlignmentConfig(Parameters):
         minimum=0.0,
         maximum=600.0,
     )
+    last_stand: bool = parameter(
+        True,
+        "offline, a stand at the end of the walk tells of the gyro bias too (off: the same bits as "
+        "live, where the end is not known)",
+    )
     window: float = parameter(
         0.75, "length of the window that is weighed", unit="s", minimum=0.1, maximum=5.0
     )

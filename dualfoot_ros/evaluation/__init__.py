@@ -8,7 +8,7 @@ from .plain import plain
 from .published import published_trajectory
 from .reports.demo_table import Report, demo_report
 from .run import RunOptions, run
-from .track import pair_samples, track, track_samples, truth_of
+from .track import as_live, pair_samples, track, track_samples, truth_of
 
 __all__ = [
     "Align",
@@ -18,6 +18,7 @@ __all__ = [
     "Pair",
     "Report",
     "RunOptions",
+    "as_live",
     "demo_report",
     "evaluate",
     "pair_samples",

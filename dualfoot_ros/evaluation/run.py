@@ -8,8 +8,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from ..core import METHODS, TrackerConfig, Trajectory, nested
-from ..inspection import Finding, check_usable, unconstrained_config, walk_findings
+from ..core import METHODS, BiasPrior, TrackerConfig, Trajectory, nested
+from ..inspection import (
+    Finding,
+    check_usable,
+    start_findings,
+    unconstrained_config,
+    walk_findings,
+)
 from ..recording import Correction, Recording, Reference
 from ..settings import flat, load_config
 from .evaluate import Evaluation, evaluate
@@ -30,6 +36,7 @@ class RunOptions:
     calibration : foot -> calibration of its sensor, applied to samples that were found usable
     allow_not_finite : leave out and count samples with nan or inf, instead of refusing them
     check_feet : look for exchanged sensors, which tracks the recording a second time
+    priors : gyro biases that are known before the walk, by foot
     """
 
     method: str | None = None
@@ -39,6 +46,7 @@ class RunOptions:
     calibration: Mapping[str, Correction] = field(default_factory=dict)
     allow_not_finite: bool = False
     check_feet: bool = True
+    priors: Mapping[str, BiasPrior] = field(default_factory=dict)
 
 
 def run(
@@ -85,7 +93,7 @@ def run_checked(
     """Pair, track and evaluate a recording that was found usable, with these ``findings``."""
     recording = _prepare(recording, options)
     begin = time.process_time()
-    trajectory = track(recording, config)
+    trajectory = track(recording, config, options.priors)
     run_s = time.process_time() - begin
     evaluation = evaluate(
         trajectory,
@@ -93,7 +101,9 @@ def run_checked(
         reference=recording.reference,
         options=options.alignment,
     )
-    of_walk = list(_walk_findings(recording, config, trajectory)) if options.check_feet else []
+    of_walk = list(start_findings(trajectory.events))
+    if options.check_feet:
+        of_walk += _walk_findings(recording, config, trajectory)
     return replace(
         evaluation,
         findings=(*findings, *of_walk),

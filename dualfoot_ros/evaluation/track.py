@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from ..core import (
     FEET,
+    BiasPrior,
     DualFootTracker,
     EvaluationError,
     FieldSeries,
@@ -14,6 +15,7 @@ from ..core import (
     PressureSeries,
     TrackerConfig,
     Trajectory,
+    bias_after,
     fields_of,
     stance_middles,
 )
@@ -41,11 +43,17 @@ class PairedSamples:
     counters: Mapping[str, int]
 
 
-def track(recording: Recording, config: TrackerConfig | None = None) -> Trajectory:
+def track(
+    recording: Recording,
+    config: TrackerConfig | None = None,
+    priors: Mapping[str, BiasPrior] | None = None,
+) -> Trajectory:
     """Bring both sensors of a recording on one time grid and track them.
 
     Air pressure and magnetic field go along, for the aids, as they were measured.  The counters of
-    the time alignment join those of the tracker under ``sync.``.
+    the time alignment join those of the tracker under ``sync.``.  ``priors`` are gyro biases that
+    are known beforehand, by foot; with ``alignment.last_stand`` the end of the recording tells of
+    them too.
 
     Raises
     ------
@@ -56,7 +64,7 @@ def track(recording: Recording, config: TrackerConfig | None = None) -> Trajecto
         What time alignment and tracker refuse: two recordings in one, no standstill.
     """
     samples = pair_samples(recording)
-    trajectory = track_samples(samples, config)
+    trajectory = track_samples(samples, config, priors)
     _check_walked(trajectory, samples.left)
     return trajectory
 
@@ -81,7 +89,11 @@ def pair_samples(recording: Recording) -> PairedSamples:
     return PairedSamples(left, right, recording.pressure, fields_of(*measured), report.counters)
 
 
-def track_samples(samples: PairedSamples, config: TrackerConfig | None = None) -> Trajectory:
+def track_samples(
+    samples: PairedSamples,
+    config: TrackerConfig | None = None,
+    priors: Mapping[str, BiasPrior] | None = None,
+) -> Trajectory:
     """Track paired samples, even if nobody walks in them.
 
     Raises
@@ -89,7 +101,7 @@ def track_samples(samples: PairedSamples, config: TrackerConfig | None = None) -
     EvaluationError
         When the magnetic heading is on without any magnetic field.
     AlignmentError
-        When there is no standstill.
+        When there is neither a standstill nor a stance of each foot.
     """
     if config is not None and config.aids.magnetic_heading and not samples.fields:
         raise EvaluationError(
@@ -98,9 +110,33 @@ def track_samples(samples: PairedSamples, config: TrackerConfig | None = None) -
             "of the samples, or leave the aid off"
         )
     tracker = DualFootTracker(config)
+    for foot, prior in bias_priors(samples, tracker.config, priors or {}).items():
+        tracker.declare_bias(foot, prior)
     trajectory = tracker.run(samples.left, samples.right, samples.pressure, samples.fields)
     paired = {f"sync.{name}": count for name, count in samples.counters.items()}
     return replace(trajectory, counters={**paired, **trajectory.counters})
+
+
+def as_live(config: TrackerConfig) -> TrackerConfig:
+    """Return the configuration with which an offline run gives the bits of the nodes.
+
+    They cannot know the end of the walk.
+    """
+    return replace(config, alignment=replace(config.alignment, last_stand=False))
+
+
+def bias_priors(
+    samples: PairedSamples, config: TrackerConfig, known: Mapping[str, BiasPrior]
+) -> dict[str, BiasPrior]:
+    """Return the gyro biases that are known of each foot before the run."""
+    priors = dict(known)
+    if not config.alignment.last_stand:
+        return priors
+    for foot, series in zip(FEET, (samples.left, samples.right), strict=True):
+        after = bias_after(series, config)
+        if after is not None:
+            priors[foot] = after.also(priors.get(foot))
+    return priors
 
 
 def truth_of(recording: Recording) -> Truth | None:

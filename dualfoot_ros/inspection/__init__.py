@@ -12,6 +12,7 @@ from .findings import (
     findings_of,
     qualities_of,
     require_usable,
+    start_findings,
     walk_findings,
 )
 from .lateral_spacing import SideBySide, side_by_side, straight
@@ -48,6 +49,7 @@ __all__ = [
     "require_usable",
     "side_by_side",
     "stance_statistics",
+    "start_findings",
     "straight",
     "unconstrained_config",
     "walk_findings",

@@ -16,6 +16,7 @@ from ..timing import StampConfig
 from .inputs.calibrations import load_for_feet
 from .inputs.field_topics import FieldInput, FieldInputs
 from .inputs.foot_streams import FootStreams
+from .inputs.kept_biases import KeptBiases
 from .inputs.pressure_topics import PressureInputs
 from .inputs.unit_check import UnitCheck
 from .results.fusion_report import FusionReport
@@ -63,6 +64,7 @@ class FusionNode(Node):
         path = group(PathConfig, values, "path.")
         self.outputs = Outputs(self, frames, path, config.noise.gyro, own.publish_tf)
         self._calibration = load_for_feet(own.calibration)
+        self.memory = KeptBiases(own.bias_memory, self.tracker, self.get_logger())
         warn = self.get_logger().warning
         self._unit_checks = {foot: UnitCheck(warn, foot) for foot in FEET}
         self._listen(own.sync == "external", values)
@@ -128,7 +130,13 @@ class FusionNode(Node):
     def _track(self, pair: ImuPair) -> None:
         update = self.tracker.add(pair)
         self.report.add(update)
+        self.memory.note(update.announced)
         self.outputs.publish(update)
+
+    def destroy_node(self) -> None:
+        """Keep what the stands have told, and end."""
+        self.memory.save()
+        super().destroy_node()
 
     def _reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self.tracker.reset()

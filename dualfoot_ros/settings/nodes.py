@@ -76,6 +76,11 @@ class FusionConfig(Parameters):
         "file of 'dualfoot calibrate' for samples that imu_adapter has not corrected already "
         "(empty: none)",
     )
+    bias_memory: str = parameter(
+        "",
+        "file with the gyro biases of earlier walks of these two sensors, read at the start and "
+        "written at the end (empty: none)",
+    )
 
 
 @dataclass(frozen=True)

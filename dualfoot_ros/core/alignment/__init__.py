@@ -1,6 +1,7 @@
 """Levelling and gyro bias: standstills weighed by their stillness, and the start of a track."""
 
 from .foot_stand import FootStand, FootStandstill, stillness
+from .last_stand import bias_after, last_stand
 from .prior import BiasPrior
 from .sampling_rate import SamplingRate
 from .start import Alignment, Start, StartKind
@@ -16,5 +17,7 @@ __all__ = [
     "StartKind",
     "Window",
     "WindowSlider",
+    "bias_after",
+    "last_stand",
     "stillness",
 ]

@@ -20,3 +20,7 @@ class BiasPrior:
         total = own + other
         combined: FloatArray = (own * self.mean + other * mean) / total
         return combined, float(total**-0.5)
+
+    def also(self, other: BiasPrior | None) -> BiasPrior:
+        """Return what this and another independent prior tell together."""
+        return self if other is None else BiasPrior(*self.combined(other.mean, other.std))

@@ -63,6 +63,7 @@ class FindingKind(StrEnum):
     EXCHANGED_FEET = "swapped"
     ALIGNING = "aligning"
     NO_STANCE = "no_stance"
+    RESTLESS_START = "restless_start"
 
     # topics
     NO_PUBLISHER = "no_publisher"

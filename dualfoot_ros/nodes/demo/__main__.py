@@ -163,10 +163,10 @@ def _compare(
 ) -> None:
     """Print whether the offline run of the same samples gives the same numbers."""
     from ...core import DualFootError
-    from ...evaluation import track
+    from ...evaluation import as_live, track
     from .live_graph import same_bits
 
-    batch = track(recording, config)
+    batch = track(recording, as_live(config))
     epochs = len(live.trajectory.left)
     if same_bits(live.trajectory, batch):
         text = f"{epochs} epochs, equal to the offline run to the bit"

@@ -5,7 +5,7 @@ import pytest
 
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.results.events import EventKind
-from dualfoot_ros.evaluation import track
+from dualfoot_ros.evaluation import as_live, track
 from dualfoot_ros.nodes.demo.live_graph import run_live, same_bits
 from dualfoot_ros.recording import read_bag
 
@@ -23,7 +23,7 @@ def both():
         live = run_live(DEMO, {"default": config}, context)["default"]
     finally:
         rclpy.try_shutdown(context=context)
-    return live, track(recording, config)
+    return live, track(recording, as_live(config))
 
 
 def test_the_demo_bag_through_the_nodes_is_the_offline_run_to_the_bit(both):

@@ -8,7 +8,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import FluidPressure
 
 from dualfoot_ros.core import EventKind, PressureSeries, TrackerConfig
-from dualfoot_ros.evaluation import track
+from dualfoot_ros.evaluation import as_live, track
 from dualfoot_ros.nodes.demo.live_graph import run_live, same_bits
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.replay import ReplayNode
@@ -46,7 +46,7 @@ def test_a_climb_through_the_nodes_is_the_offline_run_to_the_bit(context, tmp_pa
     }
     live, recording = run_live(bag, configs, context), read_bag(bag)
     for name, config in configs.items():
-        batch = track(recording, config)
+        batch = track(recording, as_live(config))
         assert live[name].lost == 0
         assert same_bits(live[name].trajectory, batch)
         aids = live[name].trajectory.of_kind(EventKind.AID)

@@ -30,8 +30,8 @@ class AlignmentConfig(Parameters):
     )
     last_stand: bool = parameter(
         True,
-        "offline, a stand at the end of the walk tells of the gyro bias too (off: the same bits as "
-        "live, where the end is not known)",
+        "offline, a stand at the end of the walk tells of the gyro bias too (off: the same bits "
+        "as live, where the end is not known)",
     )
     window: float = parameter(
         0.75, "length of the window that is weighed", unit="s", minimum=0.1, maximum=5.0

@@ -86,6 +86,8 @@ class Headings:
         as_is = config.source == "sensor"
         self._strides = [None if as_is else FirstStrides(config) for _ in FEET]
         self._first: Direction | None = None  # of the foot that was turned first
+        self._late: int | None = None
+        self.absent = [False, False]  # feet whose heading is not followed now
         self.forward = config.given
         # a rotation of each sensor and the heading of the foot at that moment
         self._reference: list[tuple[FloatArray, float] | None] = [None, None]
@@ -94,12 +96,39 @@ class Headings:
     @property
     def known(self) -> bool:
         """Whether both feet know their heading."""
-        return self._strides[0] is None and self._strides[1] is None
+        return self.knows_way(0) and self.knows_way(1)
+
+    def knows_way(self, foot: int) -> bool:
+        """Whether the heading of ``foot`` is fixed."""
+        return self._strides[foot] is None
 
     @property
     def mean(self) -> float:
-        """Direction the person faces: the circular mean of the feet, rad."""
-        return mean_angle(*self.feet)
+        """Direction the person faces: the circular mean of the feet that are there, rad."""
+        return mean_angle(*self.present)
+
+    @property
+    def present(self) -> tuple[float, float]:
+        """Headings of both feet, rad; that of the other one for a foot that is absent."""
+        left, right = self.feet
+        if self.absent[0] and not self.absent[1]:
+            return right, right
+        return (left, left) if self.absent[1] and not self.absent[0] else (left, right)
+
+    def knows(self, foot: int) -> bool:
+        """Whether the heading of ``foot`` has been known, as how its sensor sits on the shoe."""
+        return self._reference[foot] is not None
+
+    def heading_with(self, foot: int, rotation: FloatArray) -> float:
+        """Return the heading of ``foot`` when its sensor had ``rotation`` (3, 3), rad."""
+        known = self._reference[foot]
+        if known is None:
+            return self.forward
+        return known[1] + turn_between(known[0], rotation)
+
+    def late(self, foot: int) -> None:
+        """Take note that ``foot`` begins after the other: forward is then where that one heads."""
+        self._late = foot
 
     def face(self, yaw: float) -> None:
         """Take ``yaw`` (rad) as forward, before the first step."""
@@ -118,7 +147,8 @@ class Headings:
         if direction is None:
             return []
         self._strides[foot] = None
-        heading = self._forward_at(direction)
+        late = foot == self._late and self._reference[1 - foot] is not None
+        heading = self.feet[1 - foot] if late else self._forward_at(direction)
         by = heading - direction.angle
         ahead = heading + 0.5 * direction.turned
         rotation = about_z(by) @ direction.rotation

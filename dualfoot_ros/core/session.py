@@ -6,10 +6,13 @@ be one is undone, and a constraint can be applied at the moment it is about.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 import numpy as np
 
+from .absence import Absences, Presence
 from .alignment import Alignment, Start
 from .config import TrackerConfig
 from .constraints import METHODS, Method, Request, StancePhase
@@ -27,6 +30,7 @@ from .samples.series import FloatArray, IntArray
 from .standing import Stands
 
 Found = list[Event]
+LONGEST_STEP = 1.7  # of the nominal interval: longer ones are holes
 
 
 class Session:
@@ -63,10 +67,15 @@ class Session:
         self._gait = GaitHistory(self.space)
         self._roll_back = RollBack(self.space)
         self._stands = Stands(config, self.space)
+        self.absences = Absences(config, self.space, self.headings, self._gait)
+        self.filled_ns = 0
         self._dt, self._values = np.empty(1), np.empty((1, 12))
         self._row = np.zeros((1, lay.OUT))
         self.use(engine)
         self._level()
+        for foot, still in enumerate(start.feet):
+            if still.absent:
+                self.absences.never_there(foot, still.end_ns)
 
     @property
     def spacing(self) -> tuple[float, float] | None:
@@ -102,9 +111,13 @@ class Session:
 
     def _watch(self) -> None:
         """Have the kernel report when the method wants to know, once the heading is known."""
-        limit = self._method.watch_m
-        if self.headings.known:
-            self.space.w[lay.C_WATCH] = limit * abs(limit)
+        limit = self._method.watch_m if self._coupled else math.inf
+        self.space.w[lay.C_WATCH] = limit * abs(limit)
+
+    @property
+    def _coupled(self) -> bool:
+        """Whether the feet may be constrained to each other."""
+        return self.headings.known and self.absences.none
 
     def aligned_event(self, stamp: int) -> Event:
         """Return the event that says what the alignment found."""
@@ -137,7 +150,9 @@ class Session:
     def _refine(self, stamp: int, values: FloatArray) -> None:
         """Level anew when the stand has gone on for a window's length more."""
         alignment = self._alignment
-        if alignment is not None and alignment.refine(stamp, values):
+        if alignment is None or not math.isfinite(values.sum()):
+            self._alignment = None
+        elif alignment.refine(stamp, values):
             self._feet = alignment.result()
             self._level()
 
@@ -175,7 +190,7 @@ class Session:
         notices = int(self.space.n[lay.N_NOTICE])
         bits = [notices & 15, notices >> lay.NOTICE_SHIFT]
         self._roll_back.clean_phases(bits)
-        found: Found = []
+        found = self._attend_presence(notices)
         for foot in range(2):
             if notices & (lay.NOTICE_STOOD << foot):
                 self._stands.take(foot, self._gait.stamp(self.space.epoch))
@@ -183,8 +198,25 @@ class Session:
                 found += self._stance_confirmed(foot)
             elif bits[foot] & lay.STANCE_ENDED:
                 found += self._stance_ended(foot)
-        if notices & lay.NOTICE_WATCH:
+        if notices & lay.NOTICE_WATCH and self._coupled:
             found += self._constrain("both", self._method, self._method.on_epoch(self._gait))
+        return found
+
+    def _attend_presence(self, notices: int) -> Found:
+        """Attend to feet that are without samples, or that have samples again."""
+        found: Found = []
+        stamp = self._gait.stamp(self.space.epoch)
+        for foot in range(2):
+            if notices & (lay.NOTICE_GONE << foot):
+                standing = bool((notices >> (foot * lay.NOTICE_SHIFT)) & lay.STANCE_ENDED)
+                found.append(self.absences.gone(foot, stamp, standing=standing))
+            elif notices & (lay.NOTICE_BACK << foot):
+                self.absences.back(foot, stamp)
+            else:
+                continue
+            self._roll_back.forget()
+            self.space.forget()
+            self._watch()
         return found
 
     def _phase(self, foot: int, last: int) -> StancePhase:
@@ -199,20 +231,30 @@ class Session:
         now = self._gait.stamp(self.space.epoch)
         found = [Event(EventKind.STANCE_START, stamp, FEET[foot], now)]
         walking = self.phase == "walking"
+        if self.absences.of[foot] is Presence.BACK:
+            self.absences.level(foot)
+            self._roll_back.forget()
+            self.space.forget()
         turned = self.headings.stance(self._engine, foot, now, walking)
         if turned and self.headings.known:
             turned += self._join_pair(now)
             self._watch()
         found += turned
         phase = self._phase(foot, self.space.epoch)
-        for method in self._askable():
+        for method in self._askable(foot):
             found += self._constrain(FEET[foot], method, method.on_stance_start(phase, self._gait))
         return found
 
-    def _askable(self) -> list[Method]:
-        """Return the aids and the method, those that need the heading once it is known."""
+    def _askable(self, foot: int) -> list[Method]:
+        """Return the aids and the method, those that need the heading once it is known.
+
+        The method needs both feet, and the aids the one that stands.
+        """
         known = self.headings.known
-        return [each for each in (*self._aids, self._method) if known or not each.needs_heading]
+        joined = self.absences.of[foot] is Presence.JOINED
+        aids = [each for each in self._aids if joined and (known or not each.needs_heading)]
+        free = known or not self._method.needs_heading
+        return [*aids, self._method] if free and self.absences.none else aids
 
     def _stance_ended(self, foot: int) -> Found:
         last = self.space.foot(foot, "N_LEAVE") - 1
@@ -222,8 +264,26 @@ class Session:
         self._gait.ended[foot] = last
         found += self._learn_bias(foot, now)
         phase = self._phase(foot, last)
-        for method in self._askable():
+        for method in self._askable(foot):
             found += self._constrain(FEET[foot], method, method.on_stance_end(phase, self._gait))
+        if self.absences.can_join(foot):
+            found += self._join(foot, phase, now)
+        return found
+
+    def _join(self, foot: int, phase: StancePhase, now: int) -> Found:
+        """Put a foot that is back beside the other one, where that passed it."""
+        found: Found = []
+        if self.absences.of[1 - foot] is Presence.JOINED:
+            moment = phase.moment(0.5)
+            if not self._gait.remembers(moment):
+                return []
+            spacing = self.spacing[0] if self.spacing else 0.0
+            beside = partial(
+                self.absences.put_beside, heading=self.headings.mean, spacing_m=spacing
+            )
+            self._roll_back.apply([Request(moment, True, beside)])
+        found.append(self.absences.joined(foot, now))
+        self._watch()
         return found
 
     def _learn_bias(self, foot: int, now: int) -> Found:
@@ -293,15 +353,44 @@ class Session:
         self.space.forget()
         return found
 
+    @property
+    def longest_ns(self) -> int:
+        """Interval between two samples above which some are missing between them, ns."""
+        return round(LONGEST_STEP * 1e9 / self.rate_hz)
+
+    def fill(self, stamp: int, dt_ns: int, values: FloatArray) -> Found:
+        """Run epochs on the line between the sample before and that of ``stamp`` (12,).
+
+        What they cannot know of the motion goes into the covariance.  The newest sample itself
+        remains to be run, with an interval of ``filled_ns``.
+        """
+        space = self.space
+        start = lay.RINGS + lay.SAMPLE * (space.epoch % space.ring) + 1
+        before = space.w[start : start + 12].copy()
+        count = max(1, round(dt_ns * 1e-9 * self.rate_hz))
+        self.filled_ns = dt_ns // count
+        found: Found = []
+        for k in range(1, count):
+            between = before + (values - before) * (k / count)
+            at = stamp - (count - k) * self.filled_ns
+            found += self.step(at, self.filled_ns * 1e-9, between)[1]
+        if count > 1:
+            space.blur(dt_ns * 1e-9 - 1.0 / self.rate_hz, values - before)
+        return found
+
     def bridge(self, gap_s: float) -> Found:
         """Get over a gap in the data: nothing is known of what the feet did meanwhile."""
         space = self.space
         last = self._gait.stamp(space.epoch)
-        found = [
-            Event(EventKind.STANCE_END, last, FEET[foot], last)
-            for foot in range(2)
-            if space.foot(foot, "N_PHASE") in (lay.STANCE, lay.LEAVING)
-        ]
+        found: Found = []
+        for foot in range(2):
+            standing = space.foot(foot, "N_PHASE") in (lay.STANCE, lay.LEAVING)
+            if standing:
+                found.append(Event(EventKind.STANCE_END, last, FEET[foot], last))
+            if self.absences.of[foot] is not Presence.MISSING:
+                self.absences.gone(foot, last, standing=standing)
+                self.absences.back(foot, last + round(gap_s * 1e9))
         space.bridge(gap_s)
         self._roll_back.forget()
-        return found
+        self._watch()
+        return [*found, Event(EventKind.BRIDGED, last, "both", last + round(gap_s * 1e9))]

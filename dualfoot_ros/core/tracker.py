@@ -21,7 +21,7 @@ from .results.rows import to_trajectory, turn_rows
 from .results.trajectory import Trajectory
 from .results.update import Update
 from .samples.increments import Increments
-from .samples.pair_gate import MAX_GAP_NS, TIME_JUMPED, PairGate, next_irregular, regular_samples
+from .samples.pair_gate import MAX_GAP_NS, Jump, PairGate, next_irregular, regular_samples
 from .samples.series import (
     BoolArray,
     FieldSeries,
@@ -119,9 +119,10 @@ class DualFootTracker:
         """Take one pair; total: bad data gives a counted, named refusal, never an exception."""
         stamp, values = int(pair.stamp_ns), pair.values
         refused = self._gate.refusal(stamp, values)
-        if refused is TIME_JUMPED:
+        jumped = refused is Jump.CLOCK_SET
+        if refused is Jump.BEGINS_ANEW:
             self.reset(stamp, Reason.TIME_JUMPED)
-        elif refused is not None:
+        elif refused is not None and not jumped:
             self.counters[refused] += 1
             return Update(stamp, self.phase, refused=refused, events=self._take_pending())
         self.counters["pairs"] += 1
@@ -129,7 +130,12 @@ class DualFootTracker:
             self._poll_engine()
         dt_ns = self._gate.step(stamp)
         if self._session is None:
+            if jumped:
+                self._alignment = Alignment(self.config, self._priors)
             return self._align(stamp, values)
+        if jumped:
+            self.counters["clock_jumps"] += 1
+            dt_ns = 2 * session_period_ns(self._session)
         return self._track(self._session, stamp, dt_ns, values)
 
     def declare_increments(self, foot: str, kind: Increments | None) -> None:
@@ -231,7 +237,11 @@ class DualFootTracker:
         if dt_ns > MAX_GAP_NS:
             self.counters["gaps"] += 1
             before = (*before, *session.bridge(dt_ns * 1e-9))
-            dt_ns = round(1e9 / session.rate_hz)
+            dt_ns = session_period_ns(session)
+        elif dt_ns > session.longest_ns:
+            self.counters["filled"] += 1
+            before = (*before, *session.fill(stamp, dt_ns, values))
+            dt_ns = session.filled_ns
         if self._pose is not None:
             before = (*before, *self._apply_pose(session, stamp))
         row, found = session.step(stamp, dt_ns * 1e-9, values)
@@ -241,7 +251,7 @@ class DualFootTracker:
             row=row,
             events=(*before, *found) if found else before,
             blocks=session.space.blocks(),
-            headings=session.headings.feet,
+            headings=session.headings.present,
         )
 
     def _apply_pose(self, session: Session, stamp: int) -> list[Event]:
@@ -298,6 +308,12 @@ class DualFootTracker:
             "still with both feet on the ground at the start, and check units and axes"
         )
 
+    def _go_on(self, first: int, stop: int, last_ns: int) -> int:
+        """Take note that the samples ``first`` to ``stop`` have been run; return ``stop``."""
+        self.counters["pairs"] += stop - first
+        self._gate.step(last_ns)
+        return stop
+
     def _start_late(self, stamp_ns: int) -> Update | None:
         """Start from what is there when no pair follows that of ``stamp_ns``."""
         start = self._alignment.finish() if self._session is None else None
@@ -315,25 +331,25 @@ class DualFootTracker:
         out = np.zeros((count, lay.OUT))
         kept = np.zeros(count, dtype=bool)
         dts = np.diff(stamps, prepend=stamps[:1]) * 1e-9
-        stops = next_irregular(regular_samples(stamps, values))
+        stops: IntArray | None = None
         events: list[Event] = []
         taken: list[int] = []
         k = 0
         while k < count:
-            session = self._session
-            stop = int(stops[k])
-            if session is not None and session.phase == "walking" and stop > k and not self._pose:
+            session = self._session if self.phase == "walking" and not self._pose else None
+            if session is not None and stops is None:
+                stops = next_irregular(regular_samples(stamps, values, session.longest_ns))
+            if session is not None and stops is not None and (stop := int(stops[k])) > k:
                 for row, found in session.steps(stamps, dts, values, (k, stop), out):
                     _note(out, row, found, events)
                 kept[k:stop] = True
-                self.counters["pairs"] += stop - k
-                self._gate.step(int(stamps[stop - 1]))
-                k = stop
+                k = self._go_on(k, stop, int(stamps[stop - 1]))
                 continue
             update = self.add(ImuPair(int(stamps[k]), values[k]))
             if update.refused is None:
                 taken.append(k)
             if any(event.kind is EventKind.RESET for event in update.announced):
+                stops = None
                 kept[:k], taken = False, taken[-1:]
                 events.clear()
             _keep(update, taken, out, kept, events)
@@ -341,6 +357,11 @@ class DualFootTracker:
         if taken and (late := self._start_late(int(stamps[taken[-1]]))) is not None:
             _keep(late, taken, out, kept, events)
         return *_only(kept, stamps, out), events
+
+
+def session_period_ns(session: Session) -> int:
+    """Return the nominal interval of the samples, ns."""
+    return round(1e9 / session.rate_hz)
 
 
 def fields_of(left: ImuSeries, right: ImuSeries) -> dict[str, FieldSeries]:

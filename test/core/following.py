@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -28,7 +29,7 @@ class Followed:
         rows = np.array(self.rows).reshape(-1, lay.OUT)
         for event in self.events:
             if event.kind is EventKind.HEADING:
-                turn_rows(rows[: self.stamps.index(event.stamp_ns)], event)
+                turn_rows(rows[: bisect_left(self.stamps, event.stamp_ns)], event)
         return rows
 
 

@@ -95,14 +95,32 @@ def test_a_refused_pair_leaves_the_estimate_untouched():
     assert one.add(good).row.tobytes() == other.add(good).row.tobytes()
 
 
-def test_time_jumping_back_starts_anew_is_counted_and_announced():
+def test_a_recording_that_begins_anew_is_counted_and_announced():
+    """From the second pair on: one that is alone is refused, whatever its stamp."""
     tracker = aligned_tracker()
-    update = tracker.add(ImuPair(BASE - 5 * 10**9, next_pair(tracker).values))
+    values = next_pair(tracker).values
+    assert tracker.add(ImuPair(BASE - 10**9, values)).refused == "out_of_order"
+    update = tracker.add(ImuPair(BASE - 10**9 + STEP, values))
     assert update.refused is None
     assert update.phase == "aligning"
     assert tracker.counters["resets"] == 1
     resets = [e for e in update.events if e.kind is EventKind.RESET]
     assert [e.detail["reason"] for e in resets] == ["time jumped back"]
+
+
+@pytest.mark.parametrize("jump_s", [-3600.0, -20.0, 30 * 86400.0, 10 * 365 * 86400.0])
+def test_a_clock_that_is_set_costs_one_pair_and_nothing_else(jump_s):
+    tracker = aligned_tracker()
+    before = tracker.add(next_pair(tracker))
+    first = tracker._gate.last_ns + round(jump_s * 1e9)
+    found = [
+        tracker.add(ImuPair(first + k * STEP, next_pair(tracker).values)) for k in range(200)
+    ]
+    assert [update.refused is None for update in found[:3]] == [False, True, True]
+    assert tracker.counters["clock_jumps"] == 1 and tracker.counters["resets"] == 0
+    assert np.isfinite(found[-1].row).all()
+    assert np.abs(found[-1].left.position - before.left.position).max() < 0.05
+    assert found[-1].left.pose_covariance()[5, 5] < before.left.pose_covariance()[5, 5] + 0.1**2
 
 
 def test_a_gap_is_counted_bridged_and_widens_the_uncertainty():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from typing import Generic, TypeVar
 
-from ..samples.pair_gate import TIME_JUMP_NS
+from ..samples.pair_gate import BACK_NS
 
 T = TypeVar("T")
 
@@ -27,7 +27,7 @@ class Log(Generic[T]):
         wrong: what is not before it is forgotten.
         """
         if self._stamps and stamp_ns <= self._stamps[-1]:
-            if self._stamps[-1] - stamp_ns < TIME_JUMP_NS:
+            if self._stamps[-1] - stamp_ns < BACK_NS:
                 return False
             kept = bisect_left(self._stamps, stamp_ns)
             del self._stamps[kept:], self._values[kept:]

@@ -34,6 +34,7 @@ class FootStandstill:
     seconds : length of the stand, as far as it was still
     end_ns : stamp of its last sample
     moving : whether the foot may be moving at that stamp
+    absent : whether the foot has had no samples, so that nothing is known of it
     """
 
     specific_force: FloatArray
@@ -43,6 +44,7 @@ class FootStandstill:
     seconds: float
     end_ns: int
     moving: bool = False
+    absent: bool = False
 
     def levelling(self) -> FloatArray:
         """Return R_nb (3, 3) with roll and pitch from gravity and the body x axis heading zero."""

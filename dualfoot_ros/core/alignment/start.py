@@ -8,6 +8,7 @@ the walk give the level, and the gyro bias is known as far as sensors of the kin
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -25,6 +26,7 @@ from .sampling_rate import SamplingRate
 from .window import Window, WindowSlider
 
 SHORTEST_S = 0.5  # of a stand that is used
+ABSENT_S = 2.0  # without samples, after which a start does without a foot
 UNKNOWN_BIAS = BiasPrior(np.zeros(3), 0.03)  # rad/s, of consumer sensors at turn-on
 Pair = tuple[int, FloatArray]
 Standstills = tuple[FootStandstill, FootStandstill]
@@ -70,9 +72,13 @@ class FootWatch:
         self._last_ns = 0
         self.restarts = 0
         self.refining = False
+        self.seen_ns: int | None = None
 
     def add(self, stamp_ns: int, values: FloatArray) -> bool:
         """Take a sample (6,); return True when a window ended with it."""
+        if not math.isfinite(values.sum()):
+            return False
+        self.seen_ns = stamp_ns
         short = self._short.add(stamp_ns, values)
         if short is not None:
             self._take_short(short)
@@ -112,6 +118,18 @@ class FootWatch:
         return self._short_stand.result() if self._short_stand.count else None
 
 
+def absent_foot(gravity: float, stamp_ns: int) -> FootStandstill:
+    """Return what is known of a foot without samples: nothing."""
+    force = np.array([0.0, 0.0, gravity])
+    unknown = UNKNOWN_BIAS.std
+    return FootStandstill(force, np.zeros(3), unknown, 1.0, 0.0, stamp_ns, absent=True)
+
+
+def worst_std(*feet: FootStandstill) -> float:
+    """Return the largest deviation of a gyro bias of the feet that are there, rad/s."""
+    return max(foot.rate_std for foot in feet if not foot.absent)
+
+
 class Alignment:
     """Collects pairs until a track can start; afterwards refines what a stand tells."""
 
@@ -128,6 +146,7 @@ class Alignment:
         self._without_stand: Standstills | None = None
         self._since_ns: int | None = None  # of the first candidate, or of the first pair
         self._levelled = 0
+        self._first_ns: int | None = None
 
     @property
     def complaint(self) -> str | None:
@@ -148,14 +167,15 @@ class Alignment:
         self.rate.add(stamp_ns)
         self._waiting.append((stamp_ns, values))
         if self._since_ns is None:
-            self._since_ns = stamp_ns
+            self._since_ns = self._first_ns = stamp_ns
         if self._candidate is None and self._without_stand is None:
             self._without_stand = self._first_stances.add(stamp_ns, values)
             if self._without_stand is not None:
                 self._waiting.clear()
         if self._look(stamp_ns, values):
             self._consider(stamp_ns)
-            if min(w.quiet_s for w in self._watches) >= self._config.alignment.duration:
+            there = [w.quiet_s for w in self._watches if not self._absent(w, stamp_ns)]
+            if there and min(there) >= self._config.alignment.duration:
                 return self._start(StartKind.STAND, self._candidate)
         if stamp_ns - self._since_ns < self._config.alignment.patience * 1e9:
             return None
@@ -187,15 +207,25 @@ class Alignment:
         ended = [w.add(stamp_ns, part) for w, part in zip(self._watches, parts, strict=True)]
         return any(ended)
 
+    def _absent(self, watch: FootWatch, stamp_ns: int) -> bool:
+        """Return whether a foot has had no sample for so long that the other one starts alone."""
+        since_ns = self._first_ns if watch.seen_ns is None else watch.seen_ns
+        return since_ns is not None and stamp_ns - since_ns >= ABSENT_S * 1e9
+
+    def _standstill(self, watch: FootWatch, stamp_ns: int) -> FootStandstill | None:
+        if self._absent(watch, stamp_ns):
+            return absent_foot(self._config.gravity, stamp_ns)
+        return watch.standstill
+
     def _consider(self, stamp_ns: int) -> None:
         """Keep what the feet stand on now, unless something better is kept."""
-        left, right = (watch.standstill for watch in self._watches)
-        if left is None or right is None:
+        left, right = (self._standstill(watch, stamp_ns) for watch in self._watches)
+        if left is None or right is None or (left.absent and right.absent):
             return
         kept = self._candidate
         if kept is None:
             self._since_ns = stamp_ns
-        elif max(left.rate_std, right.rate_std) > max(foot.rate_std for foot in kept):
+        elif worst_std(left, right) > worst_std(*kept):
             since_ns = stamp_ns - max(foot.end_ns for foot in kept)
             if since_ns > self._config.alignment.window * 1e9:
                 return
@@ -217,7 +247,7 @@ class Alignment:
         for name, foot in zip(FEET, feet, strict=True):
             prior = self._priors.get(name, UNKNOWN_BIAS)
             known.append(prior.combined(foot.angular_rate, foot.rate_std))
-        largest = max(std for _, std in known)
+        largest = max(std for (_, std), foot in zip(known, feet, strict=True) if not foot.absent)
         left, right = (f.with_bias(b, largest) for f, (b, _) in zip(feet, known, strict=True))
         return left, right
 

@@ -31,9 +31,11 @@ from .layout import (
     HISTORY,
     LANDING,
     LEAVING,
+    N_BACK,
     N_DECIMATE,
     N_EPOCH,
     N_FOOT,
+    N_GONE,
     N_LEAVE,
     N_MIN_STANCE,
     N_MIN_SWING,
@@ -72,7 +74,7 @@ def glrt(w, n, foot):
     bz = w[still + C_STILL_RATE + 2]
     g = w[still + C_STILL_NORM]
     ring = n[N_RING]
-    count = min(n[N_WINDOW], n[N_EPOCH] + 1)
+    count = min(n[N_WINDOW], n[N_EPOCH] + 1 - n[N_FOOT + foot * N_STRIDE + N_BACK])
     mx = 0.0
     my = 0.0
     mz = 0.0
@@ -148,8 +150,24 @@ def quantile(w, d, rank):
     return BINS - 1
 
 
+def leave(w, n, foot):
+    """End the phase of a foot without samples; return the notice bits."""
+    o = N_FOOT + foot * N_STRIDE
+    phase = n[o + N_PHASE]
+    n[o + N_PHASE] = SWING
+    w[GLRT_LEFT + foot] = 0.0
+    if phase == LANDING:
+        return STANCE_FALSE
+    if phase == STANCE:
+        n[o + N_LEAVE] = n[N_EPOCH]
+        return STANCE_ENDED
+    return STANCE_ENDED if phase == LEAVING else 0
+
+
 def detect(w, n, foot):
     """Advance the phase of ``foot`` by the newest sample; return (zero velocity, notice bits)."""
+    if n[N_FOOT + foot * N_STRIDE + N_GONE] == 1:
+        return False, leave(w, n, foot)
     statistic = glrt(w, n, foot)
     w[GLRT_LEFT + foot] = statistic
     d = D_FOOT + foot * D_STRIDE

@@ -22,15 +22,19 @@ from .layout import (
     E_VEL,
     FLAG_STILL,
     FOOT,
+    N_BACK,
     N_EPOCH,
     N_FLAGS,
     N_FOOT,
+    N_GONE,
     N_NOTICE,
     N_OLDEST,
     N_RING,
     N_START,
     N_STILL,
     N_STRIDE,
+    NOTICE_BACK,
+    NOTICE_GONE,
     NOTICE_SHIFT,
     NOTICE_STOOD,
     NOTICE_WATCH,
@@ -39,6 +43,7 @@ from .layout import (
     O_COV_VEL,
     O_FOOT,
     O_POS,
+    O_PRESENT,
     O_QUAT,
     O_RATE,
     O_RELATIVE,
@@ -53,6 +58,8 @@ from .layout import (
     RINGS,
     ROT,
     ROW,
+    S_CDT,
+    S_SF,
     SAMPLE,
     STATE,
     STOOD_S,
@@ -75,6 +82,9 @@ def filter_epoch(w, n, epoch):
     flags = n[N_FLAGS + i]
     still = flags // FLAG_STILL
     for foot in range(2):
+        if missing(w, sample + 1 + 6 * foot):
+            hold(w, foot, dt)
+            continue
         o = foot * FOOT + POS
         x = w[o]
         y = w[o + 1]
@@ -91,6 +101,34 @@ def filter_epoch(w, n, epoch):
         else:
             for k in range(ZUPT_INFO):
                 w[Z_LEFT + foot * ZUPT_INFO + k] = 0.0
+
+
+def missing(w, sample):
+    """Return whether the sample of a foot at index ``sample`` is not there: nan."""
+    return w[sample] != w[sample]
+
+
+def hold(w, foot, dt):
+    """Keep a foot without samples where it is; its position becomes as uncertain as its speed."""
+    for i in range(9):
+        w[S_CDT + i] = 0.0
+    for i in range(3):
+        w[S_SF + i] = 0.0
+    propagate_foot(w, foot, dt)
+
+
+def watch_presence(w, n, foot, sample):
+    """Take note whether ``foot`` has a sample; return the notice of a change."""
+    o = N_FOOT + foot * N_STRIDE
+    gone = missing(w, sample)
+    if gone and n[o + N_GONE] == 0:
+        n[o + N_GONE] = 1
+        return NOTICE_GONE << foot
+    if not gone and n[o + N_GONE] == 1:
+        n[o + N_GONE] = 0
+        n[o + N_BACK] = n[N_EPOCH]
+        return NOTICE_BACK << foot
+    return 0
 
 
 def save(w, n, epoch):
@@ -144,6 +182,7 @@ def advance(w, n, dts, samples, start, stop, out):
         for j in range(12):
             w[o + 1 + j] = samples[k, j]
         save(w, n, epoch)  # the state before the epoch: where a roll-back begins
+        presence = watch_presence(w, n, 0, o + 1) | watch_presence(w, n, 1, o + 7)
         left, left_notice = detect(w, n, 0)
         right, right_notice = detect(w, n, 1)
         flags = 0
@@ -152,7 +191,7 @@ def advance(w, n, dts, samples, start, stop, out):
         if right:
             flags += 2 + 2 * FLAG_STILL * stands(n, 1)
         n[N_FLAGS + i] = flags
-        n[N_NOTICE] = left_notice | (right_notice << NOTICE_SHIFT)
+        n[N_NOTICE] = left_notice | (right_notice << NOTICE_SHIFT) | presence
         for foot in range(2):
             if collect_stand(w, foot, (flags // FLAG_STILL >> foot) & 1, o):
                 n[N_NOTICE] = n[N_NOTICE] | (NOTICE_STOOD << foot)
@@ -211,6 +250,7 @@ def emit(w, n, out, k):
             out[k, o + O_VEL + i] = w[s + VEL + i]
             out[k, o + O_RATE + i] = w[s + RATE + i]
         out[k, o + O_STANCE] = (flags >> foot) & 1
+        out[k, o + O_PRESENT] = 1 - n[N_FOOT + foot * N_STRIDE + N_GONE]
         quaternion(w, s + ROT, out, k, o + O_QUAT)
         block = PLL if foot == 0 else PRR
         for i in range(3):

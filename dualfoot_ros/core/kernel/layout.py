@@ -138,6 +138,8 @@ N_STRIDE = 8
 N_PHASE = 0  # one of the phases below
 N_START = 1  # first epoch of the (candidate) stance
 N_LEAVE = 2  # first epoch after it
+N_BACK = 3  # first epoch with samples since the foot was missing
+N_GONE = 4  # 1 while the foot has no samples
 N_FLAGS = N_FOOT + 2 * N_STRIDE  # ring of flags: bit 0, 1 zero velocity left, right
 FLAG_STILL = 4  # bits 2, 3: ... and standing still
 
@@ -148,10 +150,12 @@ STANCE_FALSE, STANCE_CONFIRMED, SWING_FALSE, STANCE_ENDED = 1, 2, 4, 8
 NOTICE_SHIFT = 4
 NOTICE_WATCH = 256  # the feet are farther apart than the method allows
 NOTICE_STOOD = 512  # a window of a standing left foot is complete; twice that for the right
+NOTICE_GONE = 2048  # the left foot has no sample any more; twice that for the right
+NOTICE_BACK = 8192  # the left foot has samples again; twice that for the right
 STOOD_S = 0.75  # length of that window
 
 # --- output row ----------------------------------------------------------------------------------
-O_FOOT = 54  # stride from left to right
+O_FOOT = 55  # stride from left to right
 O_POS = 0
 O_VEL = 3
 O_QUAT = 6
@@ -161,6 +165,7 @@ O_COV_POS = 14  # 3x3 each
 O_COV_VEL = 23
 O_COV_ATT = 32
 O_ZUPT = 41  # innovation 3, S 9, NIS
+O_PRESENT = 54  # 1 where the foot had a sample
 O_RELATIVE = 2 * O_FOOT  # covariance of left minus right position, 3x3
 OUT = O_RELATIVE + 9
 

@@ -10,7 +10,9 @@ from ..samples.series import FloatArray
 from . import layout as lay
 
 GAP_SPEED = 1.5  # m/s, how a person may have moved while no data came
-GAP_TURN = 0.3  # rad/s
+MISSED_SHARE = 0.2  # of the change over a hole
+MISSED_FORCE, MISSED_RATE = 2.0, 0.5  # m/s^2 and rad/s
+LONGEST_GAP_S = 60.0  # beyond which a person is not farther away
 
 
 class Workspace:
@@ -52,25 +54,34 @@ class Workspace:
         return [0, *(first + lay.STATE * (epoch % self.ring) for epoch in epochs)]
 
     def bridge(self, gap_s: float) -> None:
-        """Get over ``gap_s`` s without data: unknown velocity, a position that may have moved."""
+        """Get over ``gap_s`` s without data: the feet may have moved, and no phase goes on."""
+        moved = (GAP_SPEED * min(gap_s, LONGEST_GAP_S)) ** 2
         for foot in range(2):
-            o, block = foot * lay.FOOT, lay.PLL if foot == 0 else lay.PRR
-            for item, size in ((lay.VEL, 3), (lay.ALPHA, 3), (lay.GAMMA, 3), (lay.FOLLOWS, 1)):
-                self.w[o + item : o + item + size] = 0.0
-            rows = self.w[block : block + lay.BLOCK].reshape(15, lay.ROW)
-            cross = self.w[lay.PLR : lay.PLR + lay.BLOCK].reshape(15, lay.ROW)
-            velocity = slice(lay.E_VEL, lay.E_VEL + 3)
-            rows[velocity] = rows[:, velocity] = 0.0
-            if foot == 0:
-                cross[velocity] = 0.0
-            else:
-                cross[:, velocity] = 0.0
-            for i in range(3):
-                rows[lay.E_VEL + i, lay.E_VEL + i] = GAP_SPEED**2
-                rows[lay.E_POS + i, lay.E_POS + i] += (GAP_SPEED * gap_s) ** 2
-                rows[lay.E_ATT + i, lay.E_ATT + i] += (GAP_TURN * min(gap_s, 10.0)) ** 2
-            self.n[lay.N_FOOT + foot * lay.N_STRIDE + lay.N_PHASE] = lay.SWING
+            rows = self.own_block(foot)
+            for i in range(lay.E_POS, lay.E_POS + 3):
+                rows[i, i] += moved
+            phase = lay.N_FOOT + foot * lay.N_STRIDE
+            self.n[phase + lay.N_PHASE] = lay.SWING
+            self.n[phase + lay.N_BACK] = self.epoch + 1
         self.forget()
+
+    def blur(self, seconds: float, change: FloatArray) -> None:
+        """Add what samples on a line do not know of a hole of ``seconds`` s.
+
+        ``change`` (12,) is that of the samples over the hole; the mean of what was missed differs
+        from that of the line by a share of it, and by as much as a foot in motion always may.
+        """
+        for foot in range(2):
+            force, rate = change[6 * foot : 6 * foot + 3], change[6 * foot + 3 : 6 * foot + 6]
+            if not np.isfinite(force).all():
+                continue
+            speed = seconds * math.hypot(MISSED_SHARE * float(np.abs(force).max()), MISSED_FORCE)
+            turn = seconds * math.hypot(MISSED_SHARE * float(np.abs(rate).max()), MISSED_RATE)
+            rows = self.own_block(foot)
+            for i in range(3):
+                rows[lay.E_POS + i, lay.E_POS + i] += (0.5 * seconds * speed) ** 2
+                rows[lay.E_VEL + i, lay.E_VEL + i] += speed**2
+                rows[lay.E_ATT + i, lay.E_ATT + i] += turn**2
 
     def forget(self) -> None:
         """Make every snapshot invalid: there is no going back from here."""
@@ -84,6 +95,16 @@ class Workspace:
     def blocks(self) -> FloatArray:
         """Return a copy of the covariance blocks (3 BLOCK,): left, right, cross."""
         return self.w[lay.PLL : lay.STATE].copy()
+
+    def put_covariance(self, covariance: FloatArray) -> None:
+        """Write the full covariance (30, 30); of symmetric elements those above the diagonal."""
+        P = np.triu(covariance) + np.triu(covariance, 1).T
+        for start, part in (
+            (lay.PLL, P[:15, :15]),
+            (lay.PRR, P[15:, 15:]),
+            (lay.PLR, P[:15, 15:]),
+        ):
+            self.w[start : start + lay.BLOCK].reshape(15, lay.ROW)[:, :15] = part
 
     def covariance(self) -> FloatArray:
         """Return the full covariance (30, 30): left foot's error state, then the right foot's."""

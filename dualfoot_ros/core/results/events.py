@@ -26,6 +26,9 @@ class EventKind(StrEnum):
     AID = "aid"
     HEADING = "heading"
     RESET = "reset"
+    MISSING = "missing"
+    JOINED = "joined"
+    BRIDGED = "bridged"
 
 
 @dataclass(frozen=True)

@@ -103,6 +103,7 @@ def to_trajectory(
                 matrices(part[:, lay.O_COV_POS : lay.O_COV_POS + 9]),
                 matrices(part[:, lay.O_COV_VEL : lay.O_COV_VEL + 9]),
                 matrices(part[:, lay.O_COV_ATT : lay.O_COV_ATT + 9]),
+                part[:, lay.O_PRESENT] > 0.0,
             )
         )
     relative = matrices(rows[:, lay.O_RELATIVE : lay.O_RELATIVE + 9])

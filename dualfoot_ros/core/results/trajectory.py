@@ -24,6 +24,7 @@ class FootTrajectory:
     quaternion : (N, 4) body to navigation, Hamilton, x y z w
     stance : (N,) bool
     position_covariance, velocity_covariance, attitude_covariance : (N, 3, 3), navigation frame
+    present : (N,) bool, where the foot had samples; None stands for everywhere
     """
 
     stamp_ns: IntArray
@@ -34,6 +35,7 @@ class FootTrajectory:
     position_covariance: FloatArray
     velocity_covariance: FloatArray
     attitude_covariance: FloatArray
+    present: np.ndarray | None = None
 
     def __len__(self) -> int:
         """Return the number of epochs."""

@@ -14,6 +14,7 @@ from ..samples.series import FloatArray
 from .events import Event
 from .rows import matrices, zupt_event
 
+ONE_FOOT_STD = 0.4  # m, of the person about one foot
 POSE_SIGNS = np.repeat([1.0, -1.0], 3)  # position error, rotation error = -phi
 
 
@@ -141,6 +142,21 @@ class Update:
         block = self._blocks[foot * lay.BLOCK : (foot + 1) * lay.BLOCK]
         return FootEstimate(row, pose_part(block.reshape(lay.ERRORS, lay.ROW)))
 
+    @property
+    def present(self) -> tuple[bool, bool]:
+        """Whether the left and the right foot had a sample."""
+        if self.row is None:
+            return True, True
+        left, right = (bool(self.row[f * lay.O_FOOT + lay.O_PRESENT]) for f in range(2))
+        return left, right
+
+    def _shares(self) -> tuple[float, float]:
+        """Return the shares of the feet in the place of the person."""
+        left, right = self.present
+        if left == right:
+            return 0.5, 0.5
+        return (1.0, 0.0) if left else (0.0, 1.0)
+
     def pedestrian(self) -> PedestrianEstimate | None:
         """Return the mid-point of the feet with heading, from the joint covariance."""
         if self.row is None or self._blocks is None:
@@ -148,15 +164,18 @@ class Update:
         left, right = self.row[: lay.O_FOOT], self.row[lay.O_FOOT : 2 * lay.O_FOOT]
         joint = joint_covariance(self._blocks)
         mean = np.zeros((9, 30))
-        for i, (state, half) in enumerate(((lay.E_POS, 0.5), (lay.E_ATT, -0.5), (lay.E_VEL, 0.5))):
+        shares = self._shares()
+        for i, (state, sign) in enumerate(((lay.E_POS, 1.0), (lay.E_ATT, -1.0), (lay.E_VEL, 1.0))):
             for axis in range(3):
-                mean[3 * i + axis, state + axis] = mean[
-                    3 * i + axis, lay.ERRORS + state + axis
-                ] = half
+                for foot, share in enumerate(shares):
+                    mean[3 * i + axis, lay.ERRORS * foot + state + axis] = sign * share
         covariance = mean @ joint @ mean.T
+        if 1.0 in shares:  # the person is within reach of the one foot that is there
+            covariance[:3, :3] += ONE_FOOT_STD**2 * np.eye(3)
+        pos, vel = (slice(start, start + 3) for start in (lay.O_POS, lay.O_VEL))
         return PedestrianEstimate(
-            0.5 * (left[lay.O_POS : lay.O_POS + 3] + right[lay.O_POS : lay.O_POS + 3]),
-            0.5 * (left[lay.O_VEL : lay.O_VEL + 3] + right[lay.O_VEL : lay.O_VEL + 3]),
+            shares[0] * left[pos] + shares[1] * right[pos],
+            shares[0] * left[vel] + shares[1] * right[vel],
             mean_angle(*self._headings),
             covariance[:6, :6],
             covariance[6:, 6:],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from enum import StrEnum
 
 import numpy as np
 
@@ -10,10 +11,18 @@ from ..refusals import Refusal
 from .series import FloatArray, IntArray
 
 LIMIT = 500.0  # m/s^2 and rad/s; no foot-mounted sensor reads more
-MAX_GAP_NS = 200_000_000  # a longer gap is bridged, not integrated
-TIME_JUMP_NS = 1_000_000_000  # further back than this is a new recording, not disorder
+MAX_GAP_NS = 200_000_000  # a longer gap is bridged, not filled
+BACK_NS = 1_000_000_000  # further back than this is no disorder: time has jumped
 FAR_AHEAD_NS = 10_000_000_000  # further ahead is believed only when the next stamp agrees
-TIME_JUMPED = "time_jumped"
+CLOCK_NS = 3_600_000_000_000  # further ahead no person has walked meanwhile: a clock was set
+LOOP_NS = 2_000_000_000  # so near to the first stamp a jump back is a recording that begins anew
+
+
+class Jump(StrEnum):
+    """What a stamp that does not follow the one before says, once a second one agrees."""
+
+    BEGINS_ANEW = "begins_anew"
+    CLOCK_SET = "clock_set"
 
 
 class PairGate:
@@ -21,61 +30,95 @@ class PairGate:
 
     def __init__(self) -> None:
         """Take any first stamp."""
+        self.first_ns: int | None = None
         self.last_ns: int | None = None
-        self._ahead_ns: int | None = None
+        self._far_ns: int | None = None
 
-    def refusal(self, stamp: int, values: FloatArray) -> str | None:
-        """Return why a pair is refused, or None.
+    def refusal(self, stamp: int, values: FloatArray) -> Refusal | Jump | None:
+        """Return why a pair is refused, or None; a `Jump` is no refusal.
 
-        TIME_JUMPED is no refusal but says that a new recording begins with this pair.
+        A foot whose six values are all nan has no sample, which is none either as long as the
+        other one has.
         """
         if not math.hypot(*values.tolist()) < LIMIT:  # seldom: so look at each
-            for value in values.tolist():
-                if not -LIMIT < value < LIMIT:
-                    return _bad_value(value)
+            bad = _bad_values(values)
+            if bad is not None:
+                return bad
         if self.last_ns is None:
             return None
-        if stamp > self.last_ns:
-            return self._too_far_ahead(stamp, self.last_ns)
-        if stamp == self.last_ns:
-            return Refusal.DUPLICATE
-        return Refusal.OUT_OF_ORDER if self.last_ns - stamp < TIME_JUMP_NS else TIME_JUMPED
-
-    def _too_far_ahead(self, stamp: int, last: int) -> Refusal | None:
-        """Refuse one stamp far in the future; a second one after it shows that time did go on."""
-        ahead, self._ahead_ns = self._ahead_ns, None
-        if stamp - last <= FAR_AHEAD_NS or (ahead and 0 < stamp - ahead <= MAX_GAP_NS):
+        step = stamp - self.last_ns
+        if step > FAR_AHEAD_NS or step <= -BACK_NS:
+            return self._far(stamp, step)
+        self._far_ns = None
+        if step > 0:
             return None
-        self._ahead_ns = stamp
-        return Refusal.FAR_AHEAD
+        return Refusal.DUPLICATE if step == 0 else Refusal.OUT_OF_ORDER
+
+    def _far(self, stamp: int, step: int) -> Refusal | Jump | None:
+        """Refuse one stamp that is far off; a second one after it shows that time did jump."""
+        far, self._far_ns = self._far_ns, stamp
+        if far is None or not 0 < stamp - far <= MAX_GAP_NS:
+            return Refusal.FAR_AHEAD if step > 0 else Refusal.OUT_OF_ORDER
+        self._far_ns = None
+        if step <= CLOCK_NS and step > 0:
+            return None
+        begins = self.first_ns is not None and abs(stamp - self.first_ns) < LOOP_NS
+        return Jump.BEGINS_ANEW if begins else Jump.CLOCK_SET
 
     def step(self, stamp: int) -> int:
         """Take a stamp; return the ns since the one before (0 for the first)."""
         dt_ns = 0 if self.last_ns is None else stamp - self.last_ns
+        if self.first_ns is None:
+            self.first_ns = stamp
         self.last_ns = stamp
         return dt_ns
+
+
+def _bad_values(values: FloatArray) -> Refusal | None:
+    """Return why values (12,) are refused, or None when one foot is just not there."""
+    feet = values[:6], values[6:]
+    there = [not np.isnan(foot).all() for foot in feet]
+    if not any(there):
+        return Refusal.NOT_FINITE
+    for foot, is_there in zip(feet, there, strict=True):
+        for value in foot.tolist() if is_there else ():
+            if not -LIMIT < value < LIMIT:
+                return _bad_value(value)
+    return None
 
 
 def _bad_value(value: float) -> Refusal:
     return Refusal.OUT_OF_RANGE if math.isfinite(value) else Refusal.NOT_FINITE
 
 
-def regular_samples(stamps: IntArray, values: FloatArray) -> np.ndarray:
+def regular_samples(
+    stamps: IntArray, values: FloatArray, longest_ns: int = MAX_GAP_NS
+) -> np.ndarray:
     """Return (N,) bool: samples that the gate would take, as it did the one before, with no gap.
 
     A sample counts as taken when it is later than every good sample before it.  (After time has
-    jumped back that is never so, and the samples go one by one.)
+    jumped back that is never so, and the samples go one by one.)  ``longest_ns`` is the longest
+    interval without a hole.
     """
     count = len(stamps)
-    good: np.ndarray = np.all(np.abs(values) < LIMIT, axis=1)
+    good = _good(values)
     latest = np.maximum.accumulate(np.where(good, stamps, np.iinfo(np.int64).min))
     taken = good.copy()
     taken[1:] &= stamps[1:] > latest[:-1]
     regular = np.zeros(count, dtype=bool)
     steps = np.diff(stamps)
-    regular[1:] = taken[1:] & taken[:-1] & (steps <= MAX_GAP_NS)
+    regular[1:] = taken[1:] & taken[:-1] & (steps <= longest_ns)
     regular[2:] &= steps[:-1] <= FAR_AHEAD_NS
     return regular
+
+
+def _good(values: FloatArray) -> np.ndarray:
+    """Return (N,) bool: values (N, 12) in range, but for a foot that is not there."""
+    feet = values[:, :6], values[:, 6:]
+    there = [np.all(np.abs(foot) < LIMIT, axis=1) for foot in feet]
+    away = [np.isnan(foot).all(axis=1) for foot in feet]
+    good: np.ndarray = (there[0] & (there[1] | away[1])) | (there[1] & away[0])
+    return good
 
 
 def next_irregular(regular: np.ndarray) -> IntArray:

@@ -245,6 +245,9 @@ class DualFootTracker:
         if self._pose is not None:
             before = (*before, *self._apply_pose(session, stamp))
         row, found = session.step(stamp, dt_ns * 1e-9, values)
+        if not np.isfinite(row).all():  # the last guard: nothing that is no number ever leaves
+            self.reset(stamp, Reason.NOT_FINITE)
+            return Update(stamp, "aligning", events=self._take_pending())
         return Update(
             stamp,
             session.phase,
@@ -308,11 +311,14 @@ class DualFootTracker:
             "still with both feet on the ground at the start, and check units and axes"
         )
 
-    def _go_on(self, first: int, stop: int, last_ns: int) -> int:
-        """Take note that the samples ``first`` to ``stop`` have been run; return ``stop``."""
-        self.counters["pairs"] += stop - first
+    def _go_on(self, rows: FloatArray, last_ns: int) -> bool:
+        """Take note that samples have been run; return whether their rows (N, OUT) are numbers."""
+        self.counters["pairs"] += len(rows)
         self._gate.step(last_ns)
-        return stop
+        finite = bool(np.isfinite(rows).all())
+        if not finite:
+            self.reset(last_ns, Reason.NOT_FINITE)
+        return finite
 
     def _start_late(self, stamp_ns: int) -> Update | None:
         """Start from what is there when no pair follows that of ``stamp_ns``."""
@@ -342,8 +348,8 @@ class DualFootTracker:
             if session is not None and stops is not None and (stop := int(stops[k])) > k:
                 for row, found in session.steps(stamps, dts, values, (k, stop), out):
                     _note(out, row, found, events)
-                kept[k:stop] = True
-                k = self._go_on(k, stop, int(stamps[stop - 1]))
+                kept[k:stop] = self._go_on(out[k:stop], int(stamps[stop - 1]))
+                k = stop
                 continue
             update = self.add(ImuPair(int(stamps[k]), values[k]))
             if update.refused is None:

@@ -113,9 +113,7 @@ def test_a_clock_that_is_set_costs_one_pair_and_nothing_else(jump_s):
     tracker = aligned_tracker()
     before = tracker.add(next_pair(tracker))
     first = tracker._gate.last_ns + round(jump_s * 1e9)
-    found = [
-        tracker.add(ImuPair(first + k * STEP, next_pair(tracker).values)) for k in range(200)
-    ]
+    found = [tracker.add(ImuPair(first + k * STEP, next_pair(tracker).values)) for k in range(200)]
     assert [update.refused is None for update in found[:3]] == [False, True, True]
     assert tracker.counters["clock_jumps"] == 1 and tracker.counters["resets"] == 0
     assert np.isfinite(found[-1].row).all()

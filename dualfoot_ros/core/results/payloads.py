@@ -25,6 +25,7 @@ class Reason(StrEnum):
     AFTER_DISTURBANCE = "after a disturbance"
     ASKED_FOR = "asked for"
     TIME_JUMPED = "time jumped back"
+    NOT_FINITE = "the estimate was not finite"
 
 
 class Payload(Protocol):

@@ -217,7 +217,9 @@ def test_a_device_that_goes_is_logged_once_each_time(bench, tmp_path, capfd):
         bench.until(lambda: adapter.says(ERROR, "is waiting: "), "a report")
     lines = capfd.readouterr().err.splitlines()
     lost = [each for each in lines if "WARN" in each and str(device.path) in each]
-    assert len(lost) in (2, 3)  # with the one from before it was there, where that was seen
+    # One a time that it goes, a second one where the open port breaks before it is missed; and one
+    # from before it was there, where that was seen.
+    assert 2 <= len(lost) <= 5 < reader.counters["not_opened"]
     assert all("is not available and is tried again" in each for each in lost)
 
 

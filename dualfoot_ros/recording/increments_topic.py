@@ -54,8 +54,8 @@ def decode_kind(messages: list[bytes], topic: str) -> Increments | None:
     return Increments(text)
 
 
-def latched() -> Qos:
-    """Return the QoS that a player publishes the topic with: reliable, transient local, last."""
+def latched_qos(depth: int = 1) -> Qos:
+    """Return the QoS for a player to publish a topic with: reliable, transient local."""
     from rosbags.interfaces import (
         Qos,
         QosDurability,
@@ -68,7 +68,7 @@ def latched() -> Qos:
     never = QosTime(sec=2147483647, nsec=4294967295)
     return Qos(
         history=QosHistory.KEEP_LAST,
-        depth=1,
+        depth=depth,
         reliability=QosReliability.RELIABLE,
         durability=QosDurability.TRANSIENT_LOCAL,
         deadline=never,

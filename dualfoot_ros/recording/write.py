@@ -13,7 +13,7 @@ from ..core import FEET, FloatArray, ImuSeries, IntArray, PoseSeries, RecordingE
 from . import cdr
 from . import message_tables as messages
 from .atomic import check_target, new_directory
-from .increments_topic import encode_kind, latched
+from .increments_topic import encode_kind, latched_qos
 from .open_bag import METADATA
 from .read import NOTE_PREFIX, Progress
 from .recording import Recording
@@ -154,7 +154,7 @@ def _write(
                 c.topic,
                 c.msgtype,
                 typestore=store,
-                offered_qos_profiles=[latched()] if c.msgtype == INCREMENTS_TYPE else [],
+                offered_qos_profiles=[latched_qos()] if c.msgtype == INCREMENTS_TYPE else [],
             )
             for c in channels
         ]

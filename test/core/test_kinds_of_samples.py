@@ -5,11 +5,12 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
+from scipy.spatial.transform import Rotation, Slerp
 
 from dualfoot_ros.core import FEET, DualFootTracker, Increments
 from dualfoot_ros.inspection import unconstrained_config
-from dualfoot_ros.simulation import WalkConfig, grade, simulate, walk
+from dualfoot_ros.simulation import ClockConfig, WalkConfig, grade, simulate, walk
+from dualfoot_ros.timing import align
 
 COMPENSATED, AVERAGED, SAMPLED = Increments
 RATES_HZ = (60.0, 100.0, 200.0)
@@ -54,6 +55,32 @@ def test_compensated_increments_and_means_have_the_same_heading_after_a_lap(rate
 def test_sampled_values_have_it_as_far_as_a_sample_in_17_ms_can_tell(rate_hz):
     apart = turned(rate_hz, SAMPLED, SAMPLED) - turned(rate_hz, AVERAGED, AVERAGED)
     assert np.abs(apart).max() < (ALIKE_AT_60_HZ if rate_hz < 80.0 else ALIKE_FOR_SAMPLED)
+
+
+@pytest.mark.parametrize("phase", [0.2, 0.5])
+def test_a_foot_that_is_sampled_beside_the_other_keeps_the_heading_too(phase):
+    clocks = ClockConfig(), ClockConfig(phase=phase)
+    sensor = replace(grade("ideal"), increments="compensated")
+    gained = []
+    for pair in ((ClockConfig(), ClockConfig()), clocks):
+        simulation = simulate(lap(60.0), sensor, pair, seed=2)
+        tracks = DualFootTracker(unconstrained_config()).run(
+            *align(simulation.left, simulation.right)
+        )
+        gained.append(_gained_between(tracks.right, simulation.right_truth))
+    assert abs(gained[1] - gained[0]) < ALIKE
+
+
+def _gained_between(track, truth):
+    """Return the heading error gained by a track whose stamps lie between those of the truth."""
+    there = Slerp(truth.stamp_ns * 1e-9, Rotation.from_quat(truth.quaternion))
+    inside = track.stamp_ns < truth.stamp_ns[-1]
+    error = (
+        Rotation.from_quat(track.quaternion)
+        * there(np.minimum(track.stamp_ns, truth.stamp_ns[-1]) * 1e-9).inv()
+    )
+    turns = np.unwrap(error.as_rotvec()[inside, 2])
+    return np.degrees(turns[-1] - turns[0])
 
 
 @pytest.mark.parametrize(

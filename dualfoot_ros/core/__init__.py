@@ -2,7 +2,7 @@
 
 from .alignment import BiasPrior, bias_after, stillness
 from .config import GROUPS, TrackerConfig, all_specs, method_parameters, nested
-from .config_groups import AlignmentConfig, NoiseConfig
+from .config_groups import AlignmentConfig, IncrementsConfig, NoiseConfig
 from .constraints import METHODS
 from .errors import (
     AlignmentError,
@@ -95,6 +95,7 @@ __all__ = [
     "ImuPair",
     "ImuSeries",
     "Increments",
+    "IncrementsConfig",
     "IntArray",
     "Matrix",
     "MountingConfig",

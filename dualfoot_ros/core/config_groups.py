@@ -99,6 +99,10 @@ class IncrementsConfig(Parameters):
         given = self.left if foot == "left" else self.right
         return (source or Increments.AVERAGED) if given == FROM_SOURCE else Increments(given)
 
+    def is_given(self, foot: str) -> bool:
+        """Return whether it is given here for ``foot``, whatever the source says."""
+        return (self.left if foot == "left" else self.right) != FROM_SOURCE
+
 
 @dataclass(frozen=True)
 class HeadingConfig(Parameters):

@@ -2,6 +2,7 @@
 
 from ..core import RecordingError
 from .atomic import check_file, check_target, new_directory, new_files, write_text
+from .increments_topic import latched_qos
 from .log_times import read_arrivals
 from .open_bag import METADATA, TopicInfo, list_topics
 from .read import read_bag
@@ -22,6 +23,7 @@ __all__ = [
     "Topics",
     "check_file",
     "check_target",
+    "latched_qos",
     "list_topics",
     "new_directory",
     "new_files",

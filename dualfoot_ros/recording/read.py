@@ -8,12 +8,28 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..core import FEET, FloatArray, ImuSeries, PoseSeries, PressureSeries, RecordingError
+from ..core import (
+    FEET,
+    FloatArray,
+    ImuSeries,
+    Increments,
+    PoseSeries,
+    PressureSeries,
+    RecordingError,
+)
 from . import message_tables as messages
+from .increments_topic import decode_kind
 from .open_bag import iterate, opened
 from .recording import Recording
 from .reference import FILE_NAME, Reference
-from .topics import FIELD_TYPE, IMU_TYPE, PRESSURE_TYPE, TRUTH_TYPE, Topics
+from .topics import (
+    FIELD_TYPE,
+    IMU_TYPE,
+    INCREMENTS_TYPE,
+    PRESSURE_TYPE,
+    TRUTH_TYPE,
+    Topics,
+)
 
 if TYPE_CHECKING:
     from rosbags.interfaces import Connection
@@ -29,7 +45,8 @@ def read_bag(
     """Read the samples, the truth and the reference of a rosbag2 recording (MCAP or sqlite3).
 
     ``path`` is the folder of the bag, or its one .mcap or .db3 file.  A topic that is not there
-    is None in the recording.  A topic named as one of pressure but of another type is not read.
+    is None in the recording.  A topic named as one of pressure or of what the samples are, but of
+    another type, is not read.
     ``progress`` is called with the share read, 0 to 1.
 
     Raises
@@ -44,11 +61,14 @@ def read_bag(
     tables = {
         topic: messages.table(data, msgtype, topic)
         for topic, (msgtype, data) in raw.topics.items()
+        if msgtype != INCREMENTS_TYPE
     }
     parts: dict[str, Any] = {}
     for foot in FEET:
         names = topics.of(foot)
-        parts[foot] = _imu(tables.get(names.imu), tables.get(names.magnetic_field))
+        _, said = raw.topics.get(names.increments, ("", []))
+        kind = decode_kind(said, names.increments)
+        parts[foot] = _imu(tables.get(names.imu), tables.get(names.magnetic_field), kind)
         parts[f"{foot}_truth"] = _truth(tables.get(names.truth))
         parts[f"{foot}_frame"] = _frame(tables.get(names.imu), names.imu_frame)
     return Recording(
@@ -93,12 +113,15 @@ def _expected_types(topics: Topics) -> dict[str, str]:
         expected[names.imu] = IMU_TYPE
         expected[names.magnetic_field] = FIELD_TYPE
         expected[names.truth] = TRUTH_TYPE
+        expected[names.increments] = INCREMENTS_TYPE
     return expected | dict.fromkeys(topics.pressure.values(), PRESSURE_TYPE)
 
 
 def _has_other_type(connection: Connection, topics: Topics) -> bool:
-    """Return whether it has the name of a pressure topic but another type."""
-    return connection.topic in topics.pressure.values() and connection.msgtype != PRESSURE_TYPE
+    """Return whether it has a name that anyone may use for something else, and another type."""
+    free = dict.fromkeys(topics.pressure.values(), PRESSURE_TYPE)
+    free |= {topics.of(foot).increments: INCREMENTS_TYPE for foot in FEET}
+    return free.get(connection.topic, connection.msgtype) != connection.msgtype
 
 
 def _check_type(topic: str, msgtype: str, expected: str) -> None:
@@ -117,14 +140,16 @@ def _notes(reader: Reader) -> dict[str, str]:
     }
 
 
-def _imu(imu: messages.Table | None, field: messages.Table | None) -> ImuSeries | None:
+def _imu(
+    imu: messages.Table | None, field: messages.Table | None, kind: Increments | None
+) -> ImuSeries | None:
     if imu is None:
         return None
     magnetic = None
     if field is not None and len(field.stamp_ns):
         magnetic = _on_stamps(imu, field)
     rate, force = imu.values[:, messages.RATE], imu.values[:, messages.FORCE]
-    return ImuSeries(imu.stamp_ns, force, rate, magnetic)
+    return ImuSeries(imu.stamp_ns, force, rate, magnetic, kind)
 
 
 def _on_stamps(imu: messages.Table, field: messages.Table) -> FloatArray:

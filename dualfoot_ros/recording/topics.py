@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 IMU_TYPE = "sensor_msgs/msg/Imu"
 FIELD_TYPE = "sensor_msgs/msg/MagneticField"
 TRUTH_TYPE = "nav_msgs/msg/Odometry"
+INCREMENTS_TYPE = "std_msgs/msg/String"
 PRESSURE_TYPE = "sensor_msgs/msg/FluidPressure"
+DATA_NAMES = ("data_raw", "data_sync", "data")  # of samples, by REP 145 and here
 PRESSURE_TOPICS = {"left": "/left/pressure", "right": "/right/pressure", "both": "/pressure"}
 
 
@@ -21,6 +23,12 @@ class FootTopics:
     truth: str
     imu_frame: str
     foot_frame: str
+
+    @property
+    def increments(self) -> str:
+        """The topic that says what the samples are: beside ``imu``, below it for other names."""
+        space, _, name = self.imu.rpartition("/")
+        return f"{space if name in DATA_NAMES else self.imu}/increments"
 
 
 @dataclass(frozen=True)

@@ -153,7 +153,8 @@ def mechanize(w, foot, dt, sample):
     qx = w[o + GAMMA]
     qy = w[o + GAMMA + 1]
     qz = w[o + GAMMA + 2]
-    if w[C_FOOT + foot * C_STRIDE + C_INCREMENTS] == COMPENSATED:
+    kind = w[C_FOOT + foot * C_STRIDE + C_INCREMENTS]
+    if kind == COMPENSATED:
         # the sensor has compensated coning and sculling: held constant, its rate and force give
         # its increments, so v_sf = [I + (1 - cos a)/a^2 [alpha x] + (1 - sin a/a)/a^2 [alpha x]^2]
         # gamma, and nothing goes across samples
@@ -163,8 +164,9 @@ def mechanize(w, foot, dt, sample):
         sy = w[S_TMP + 1]
         sz = w[S_TMP + 2]
     else:
-        # v_sf of eq. (2): rotation within the interval, and the two-sample sculling term
-        t = 1.0 / 12.0
+        # v_sf of eq. (2): rotation within the interval, and the two-sample sculling term; twice of
+        # it where trapezoids cut the corners of the motion, by dt^2 / 12 of its second derivative
+        t = 1.0 / 6.0 if kind == SAMPLED else 1.0 / 12.0
         sx = gx + 0.5 * (ay * gz - az * gy) + t * (py * gz - pz * gy + qy * az - qz * ay)
         sy = gy + 0.5 * (az * gx - ax * gz) + t * (pz * gx - px * gz + qz * ax - qx * az)
         sz = gz + 0.5 * (ax * gy - ay * gx) + t * (px * gy - py * gx + qx * ay - qy * ax)

@@ -19,3 +19,15 @@ class Increments(StrEnum):
     COMPENSATED = "compensated"
     AVERAGED = "averaged"
     SAMPLED = "sampled"
+
+    @property
+    def words(self) -> str:
+        """What the samples are, in words."""
+        return _WORDS[self]
+
+
+_WORDS = {
+    Increments.COMPENSATED: "compensated increments",
+    Increments.AVERAGED: "means over their interval",
+    Increments.SAMPLED: "values at their stamp",
+}

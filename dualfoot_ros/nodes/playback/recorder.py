@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from ...recording import METADATA, check_target, new_directory
+from ...recording import METADATA, check_target, latched_qos, new_directory
 
 
 class RecorderNode(Node):
@@ -44,7 +44,13 @@ class RecorderNode(Node):
         name = self.resolve_topic_name(topic)
         package = message_type.__module__.split(".")[0]
         type_name = f"{package}/msg/{message_type.__name__}"
-        connection = self._writer.add_connection(name, type_name, typestore=self._types)
+        is_latched = profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
+        connection = self._writer.add_connection(
+            name,
+            type_name,
+            typestore=self._types,
+            offered_qos_profiles=[latched_qos(profile.depth)] if is_latched else [],
+        )
 
         def write(data: bytes) -> None:
             self._writer.write(connection, self._now_ns(), data)

@@ -9,7 +9,7 @@ from typing import cast
 
 import numpy as np
 
-from ...core import ImuSeries, RecordingError
+from ...core import FEET, ImuSeries, Increments, RecordingError
 from ..recording import Recording
 from .options import ImportOptions
 
@@ -73,6 +73,7 @@ def import_recording(options: ImportOptions, name: str = "auto") -> Recording:
             raise RecordingError(f"there is no file '{file}'")
     suffix = FOLDER if files[0].is_dir() else files[0].suffix.lower()
     recording = _format(name, suffix).load(options)
+    recording = _declared(recording, options.increments)
     return _shifted(recording, round(options.right_offset_s * 1e9))
 
 
@@ -85,6 +86,28 @@ def _format(name: str, suffix: str) -> Format:
         known = ", ".join(f"{' or '.join(f.suffixes)} ({f.name})" for f in FORMATS)
         raise RecordingError(f"files '*{suffix}' are of no known format; known: {known}")
     raise RecordingError(f"format is '{name}'; allowed is auto, {names}")
+
+
+def _declared(recording: Recording, kind: str) -> Recording:
+    """Return the recording with samples of that kind; "auto" leaves what the source says.
+
+    Raises
+    ------
+    RecordingError
+        When there is no such kind.
+    """
+    if kind == "auto":
+        return recording
+    if kind not in tuple(Increments):
+        raise RecordingError(
+            f"increments is '{kind}'; allowed is auto, {', '.join(known for known in Increments)}"
+        )
+    feet = {
+        foot: replace(series, increments=Increments(kind))
+        for foot in FEET
+        if (series := recording.imu(foot)) is not None
+    }
+    return replace(recording, **feet)  # type: ignore[arg-type]
 
 
 def _shifted(recording: Recording, offset_ns: int) -> Recording:

@@ -20,6 +20,7 @@ class ImportOptions:
     right_offset_s : added to every stamp of the right foot, s
     field_scale : tesla per unit of the magnetometer, 0 leaves it out
     left_topic, right_topic : sensor_msgs/Imu topics of a bag; None for those this package writes
+    increments : what the samples are, a value of ``Increments``; "auto" as the source says
     force_unit, rate_unit : units of a bag's samples, keys of ``FORCE_UNITS``, ``RATE_UNITS``
     """
 
@@ -33,3 +34,4 @@ class ImportOptions:
     right_topic: str | None = None
     force_unit: str = "m/s^2"
     rate_unit: str = "rad/s"
+    increments: str = "auto"

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...core import FEET
-from ...recording import Recording
+from ...recording import Recording, Topics
 from ..quality import Quality
 from .finding import Finding, Severity
 from .finding_kinds import FindingKind
@@ -16,17 +16,19 @@ RATE_RATIO = 1.5
 
 
 def find_missing(recording: Recording) -> Iterator[Finding]:
-    """Yield a finding when a foot has no samples."""
+    """Yield a finding when a foot has no samples; the other one can be tracked alone."""
     absent = [foot for foot in FEET if not recording.imu(foot)]
     if not absent:
         return
     topics = ", ".join(f"'{recording.topics.of(foot).imu}'" for foot in absent)
     present = [foot for foot in FEET if foot not in absent]
     which = f"the {absent[0]} foot" if present else "either foot"
-    only = f", only the {present[0]} foot has some" if present else ""
+    usual = all(recording.topics.of(foot).imu == Topics().of(foot).imu for foot in absent)
+    goes_on = bool(present) and usual  # a topic that was asked for by name must be there
+    only = f", so the {present[0]} foot is tracked alone" if goes_on else ""
     yield Finding(
         FindingKind.MISSING,
-        Severity.ERROR,
+        Severity.WARNING if goes_on else Severity.ERROR,
         f"there are no samples of {which} ({topics}){only}",
         _topic_advice(recording),
         absent[0] if present else "",

@@ -51,9 +51,10 @@ OF_STREAM: Sequence[FootFindings] = (
 def require_usable(
     recording: Recording, *, allow_not_finite: bool = False
 ) -> tuple[ImuSeries, ImuSeries]:
-    """Return the samples of both feet; raise as :func:`check_usable`."""
-    check_usable(recording, allow_not_finite=allow_not_finite)
-    assert recording.left is not None and recording.right is not None
+    """Return the samples of both feet; raise as :func:`check_usable`, and when a foot has none."""
+    findings = check_usable(recording, allow_not_finite=allow_not_finite)
+    if not recording.left or not recording.right:
+        raise RecordingError(next(f for f in findings if f.kind is FindingKind.MISSING).sentence)
     return recording.left, recording.right
 
 

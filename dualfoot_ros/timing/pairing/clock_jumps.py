@@ -19,7 +19,7 @@ class ClockJumps:
     it changes by more than ``max_delay`` and stays there while both feet deliver, and the stamps
     of one foot made a step in just that direction, its clock was set: what the lead has changed
     is taken off.  A foot that is late, or comes back after a silence, makes no such step.  Clocks
-    that are set together leave the lead as it was.
+    that are set together leave the lead as it was, and what was apart from the start stays so.
 
     ``shift_ns`` is what is added to the stamps, by foot; ``jumps`` counts the clocks set.
     """
@@ -41,6 +41,10 @@ class ClockJumps:
     def _begin_run(self) -> None:
         self._run = {foot: deque[int](maxlen=NEW) for foot in FEET}
         self._running = False
+
+    def usual_lead_ns(self, foot: str) -> int:
+        """Return how far the newest stamp of a foot is usually ahead of that of the other."""
+        return self._usual if foot == "right" else -self._usual
 
     def suspects(self, foot: str) -> bool:
         """Tell whether the clock of this foot alone seems to be set; it shows soon."""
@@ -64,7 +68,8 @@ class ClockJumps:
 
     def _compare(self, foot: str, lead: int, turned: bool) -> bool:
         """Compare a lead with the usual one, which is taken where the feet deliver in turn."""
-        if len(self._leads) == USUAL and abs(lead - self._usual) > self._limit_ns:
+        known = len(self._leads) == USUAL and abs(self._usual) <= self._limit_ns
+        if known and abs(lead - self._usual) > self._limit_ns:
             self._running = True
             self._run[foot].append(lead)
             return self._undo(foot)

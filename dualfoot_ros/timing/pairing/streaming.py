@@ -69,6 +69,16 @@ class Aligner:
         jumps = {f"{foot}_clock_set": n for foot, n in self._jumps.jumps.items()}
         return feet | jumps | self._outcomes
 
+    def behind_ns(self, foot: str) -> int:
+        """Return how much more than usual the newest stamp of a foot is behind the other's."""
+        own, other = self._buffers[foot], self._buffers[_other(foot)]
+        if other.first_ns is None:
+            return 0
+        if own.first_ns is None:
+            return other.newest_ns - other.first_ns
+        usual_ns = max(0, -self._jumps.usual_lead_ns(foot))
+        return max(0, other.newest_ns - own.newest_ns - min(usual_ns, self.config.max_delay_ns))
+
     def reset(self) -> None:
         """Forget all samples; the counters and what clocks were set by stay."""
         for gate in self._gates.values():

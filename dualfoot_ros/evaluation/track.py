@@ -137,7 +137,8 @@ def bias_priors(
     if not config.alignment.last_stand:
         return priors
     for foot, series in zip(FEET, (samples.left, samples.right), strict=True):
-        after = bias_after(series[~np.isnan(series.specific_force).any(axis=1)], config)
+        there = np.flatnonzero(~np.isnan(series.specific_force).any(axis=1))
+        after = bias_after(series[there], config)
         if after is not None:
             priors[foot] = after.also(priors.get(foot))
     return priors

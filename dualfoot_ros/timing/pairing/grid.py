@@ -14,8 +14,8 @@ BEFORE_ALL = -(1 << 63)
 class Grid(Protocol):
     """Stamps of the common grid, in increasing order."""
 
-    def admit(self, foot: str, stamp_ns: int) -> int:
-        """Learn that ``foot`` has a sample at ``stamp_ns``; return how many come too late."""
+    def admit(self, foot: str, stamp_ns: int) -> None:
+        """Learn that ``foot`` has a sample at ``stamp_ns``."""
 
     def head(self, newest_ns: int) -> int | None:
         """Return the next stamp a pair is wanted at, or None when none is known yet."""
@@ -51,21 +51,21 @@ class ReferenceGrid:
         self._spacing = Spacing(self._max_gap_ns)
         self._newest_ns = BEFORE_ALL
 
-    def admit(self, foot: str, stamp_ns: int) -> int:
-        """Take the stamp; return how many pairs come too late for it."""
+    def admit(self, foot: str, stamp_ns: int) -> None:
+        """Take the stamp; one before the last pair comes too late."""
         if foot != self._reference:
-            return self._append(self._other, stamp_ns)
-        late = sum(self._append(self._own, lost) for lost in self._spacing.fill(stamp_ns))
+            self._append(self._other, stamp_ns)
+            return
+        for lost_ns in self._spacing.fill(stamp_ns):
+            self._append(self._own, lost_ns)
         if stamp_ns - self._newest_ns > self._max_gap_ns:
             self._holes.append((self._newest_ns, stamp_ns))
         self._newest_ns = stamp_ns
-        return late + self._append(self._own, stamp_ns)
+        self._append(self._own, stamp_ns)
 
-    def _append(self, pending: deque[int], stamp_ns: int) -> int:
-        late = stamp_ns <= self._done_ns + self._tolerance_ns
-        if not late:
+    def _append(self, pending: deque[int], stamp_ns: int) -> None:
+        if stamp_ns > self._done_ns + self._tolerance_ns:
             pending.append(stamp_ns)
-        return int(late)
 
     def head(self, newest_ns: int) -> int | None:
         """Return the oldest stamp that is not dropped yet."""
@@ -121,10 +121,9 @@ class UniformGrid:
         self._anchor: int | None = None
         self._next = 0
 
-    def admit(self, foot: str, stamp_ns: int) -> int:
+    def admit(self, foot: str, stamp_ns: int) -> None:
         """Learn when each foot starts."""
         self._first.setdefault(foot, stamp_ns)
-        return 0
 
     def head(self, newest_ns: int) -> int | None:
         """Return the next stamp, or None before it is known where the grid begins."""

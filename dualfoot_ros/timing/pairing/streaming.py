@@ -108,7 +108,8 @@ class Aligner:
         if not self._admit(foot, stamp_ns, all_finite(sample.tolist())):
             return []
         self._buffers[foot].append(stamp_ns, sample)
-        self._outcomes["late"] += self._grid.admit(foot, stamp_ns)
+        self._outcomes["late"] += self._paired_ns is not None and stamp_ns <= self._paired_ns
+        self._grid.admit(foot, stamp_ns)
         self._welcome(foot, stamp_ns)
         return list(self._complete())
 

@@ -56,6 +56,7 @@ class Log:
     def __init__(self):
         self.lines = []
         self.nanoseconds = 0
+        self.ros_time_is_active = False
 
     def warning(self, text):
         self.lines.append(text)

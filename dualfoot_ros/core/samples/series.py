@@ -132,6 +132,8 @@ class ImuPair(NamedTuple):
 def stack_pairs(left: ImuSeries, right: ImuSeries) -> FloatArray:
     """Return (N, 12) values as in :class:`ImuPair`; the series must share their stamps.
 
+    Rows in which a foot is missing have NaN in all six of its values.
+
     Raises
     ------
     SeriesError

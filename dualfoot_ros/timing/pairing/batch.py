@@ -14,7 +14,7 @@ from ...core import FEET, BoolArray, ImuSeries, IntArray, TimingError
 from .grid import anchor
 from .grid_lookup import GridLookup
 from .pairing_config import AlignerConfig
-from .spacing import filled
+from .sample_spacing import filled
 from .stream_gate import Clean, clean
 
 

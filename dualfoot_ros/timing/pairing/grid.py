@@ -6,7 +6,7 @@ from collections import deque
 from typing import Protocol
 
 from .pairing_config import AlignerConfig
-from .spacing import Spacing
+from .sample_spacing import Spacing
 
 BEFORE_ALL = -(1 << 63)
 

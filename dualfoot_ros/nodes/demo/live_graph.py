@@ -106,7 +106,7 @@ class LiveGraph:
                 waiting.append(pressures - fusion.pressure.received)
             if fusion.fields is not None:
                 waiting.append(fields - fusion.fields.received)
-            waiting.append(fusion.outputs.published - sum(map(len, collector.values())))
+            waiting.append(fusion.outputs.messages - sum(map(len, collector.values())))
         return waiting
 
     def _has_room(self) -> bool:

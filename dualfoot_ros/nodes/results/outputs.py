@@ -24,7 +24,8 @@ EVENTS_KEPT = 200
 class Outputs:
     """Publishers of the node ``fusion``, and the messages that are filled for every update.
 
-    ``published`` counts the messages of odometry.
+    ``published`` counts the updates with an estimate, ``messages`` those of odometry that they
+    gave.
     """
 
     def __init__(
@@ -46,7 +47,7 @@ class Outputs:
         self._events = node.create_publisher(DiagnosticArray, "~/events", qos.latched(EVENTS_KEPT))
         self._tf = FrameBroadcaster(node) if tf else None
         self._last_ns: int | None = None
-        self.published = 0
+        self.published = self.messages = 0
 
     def publish(self, update: Update, present: tuple[bool, bool] = (True, True)) -> None:
         """Publish the estimates and events of ``update``, of the feet that are ``present``."""
@@ -65,7 +66,8 @@ class Outputs:
         self._pedestrian.publish(self._person)
         if self._tf is not None:
             self._tf.publish([self._person, *(self._feet[foot] for foot in feet)])
-        self.published += 1 + len(feet)
+        self.published += 1
+        self.messages += 1 + len(feet)
 
     def _publish_foot(self, foot: str, update: Update, rate_variance: float) -> None:
         estimate = update.left if foot == "left" else update.right

@@ -46,4 +46,4 @@ def test_odometry_is_that_of_the_person_and_of_the_feet_that_are_there(
         outputs.publish(update, present)
     bench.until(lambda: len(got["person"]) == 5, "odometry of the person")
     bench.until(lambda: all(len(got[foot]) == 5 for foot in expected), "odometry of the feet")
-    assert outputs.published == sum(map(len, got.values())) == 5 * (1 + len(expected))
+    assert outputs.messages == sum(map(len, got.values())) == 5 * (1 + len(expected))

@@ -68,6 +68,14 @@ def test_a_foot_that_is_missing_is_a_warning_as_the_other_one_is_tracked_alone()
     assert "so the left foot is tracked alone" in finding.text
 
 
+def test_a_foot_that_begins_late_or_ends_early_is_a_warning_with_the_time():
+    late, early = of(left=moving(1)[450:]), of(right=moving(2)[:700])
+    for recording, words in ((late, "left foot begins 4.5 s"), (early, "right foot ends 5.0 s")):
+        (finding,) = (f for f in check_usable(recording) if f.kind is FindingKind.ONE_FOOT)
+        assert words in finding.text and "tracked alone" in finding.text
+    assert "one_foot" not in named(of(right=moving(2)[:1000]))
+
+
 def test_a_topic_that_was_asked_for_by_name_must_be_there():
     topics = replace(Topics(), right=replace(Topics().right, imu="/imu"))
     with pytest.raises(RecordingError, match="no samples of the right foot"):

@@ -42,6 +42,7 @@ class FindingKind(StrEnum):
     STAMPS = "stamps"
     NO_OVERLAP = "no_overlap"
     RATES = "rates"
+    ONE_FOOT = "one_foot"
     NOT_STAMPED = "not_stamped"
     CLOCK_REFUSED = "clock_refused", True
     CLOCK_SETTLING = "clock_settling"

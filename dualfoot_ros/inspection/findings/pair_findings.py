@@ -13,6 +13,7 @@ from .finding import Finding, Severity
 from .finding_kinds import FindingKind
 
 RATE_RATIO = 1.5
+ALONE_S = 3.0  # at the start or the end of a recording
 
 
 def find_missing(recording: Recording) -> Iterator[Finding]:
@@ -58,6 +59,26 @@ def find_no_overlap(left: Quality, right: Quality) -> Iterator[Finding]:
             "'dualfoot sync BAG -o ALIGNED' finds the offset from how the feet moved, and "
             "'dualfoot import SOURCE --right-offset SECONDS' takes a known one",
         )
+
+
+def find_one_foot(left: Quality, right: Quality) -> Iterator[Finding]:
+    """Yield a finding when a foot begins much later, or ends much earlier, than the other."""
+    for foot, own, other in (("left", left, right), ("right", right, left)):
+        if own.start_s >= other.end_s or own.end_s <= other.start_s:
+            return  # they do not overlap, which is another finding
+        for verb, apart_s in (
+            ("begins {:.1f} s after", own.start_s - other.start_s),
+            ("ends {:.1f} s before", other.end_s - own.end_s),
+        ):
+            if apart_s > ALONE_S:
+                yield Finding(
+                    FindingKind.ONE_FOOT,
+                    Severity.WARNING,
+                    f"the {foot} foot {verb.format(apart_s)} the other one, which is tracked "
+                    "alone there",
+                    "check the sensor and its link",
+                    f"{foot} {verb.split()[0]}",
+                )
 
 
 def find_different_rates(left: Quality, right: Quality) -> Iterator[Finding]:

@@ -14,7 +14,7 @@ from ..quality import Quality, quality_of
 from .field_findings import field_findings
 from .finding import Finding
 from .finding_kinds import FindingKind
-from .pair_findings import find_different_rates, find_missing, find_no_overlap
+from .pair_findings import find_different_rates, find_missing, find_no_overlap, find_one_foot
 from .pressure_findings import pressure_findings
 from .sample_findings import (
     LEAST_SAMPLES,
@@ -37,7 +37,7 @@ PairFindings = Callable[[Quality, Quality], Iterator[Finding]]
 
 OF_SAMPLES: Sequence[FootFindings] = (find_not_finite, find_too_few, find_second_recording)
 OF_UNITS: Sequence[FootFindings] = (find_force_unit, find_rate_unit)
-OF_PAIR: Sequence[PairFindings] = (find_no_overlap, find_different_rates)
+OF_PAIR: Sequence[PairFindings] = (find_no_overlap, find_one_foot, find_different_rates)
 OF_STREAM: Sequence[FootFindings] = (
     find_stuck_values,
     find_no_standstill,

@@ -10,6 +10,7 @@ from .pairing_config import AlignerConfig
 
 USUAL = 20  # turns of delivery over which the usual lead is taken
 NEW = 15  # samples of each foot that must agree on the new lead
+TURNS = 4  # in which the feet must deliver meanwhile; a fast replay may come in blocks
 
 
 class ClockJumps:
@@ -40,7 +41,7 @@ class ClockJumps:
 
     def _begin_run(self) -> None:
         self._run = {foot: deque[int](maxlen=NEW) for foot in FEET}
-        self._running = False
+        self._running, self._turns = False, 0
 
     def usual_lead_ns(self, foot: str) -> int:
         """Return how far the newest stamp of a foot is usually ahead of that of the other."""
@@ -71,6 +72,7 @@ class ClockJumps:
         known = len(self._leads) == USUAL and abs(self._usual) <= self._limit_ns
         if known and abs(lead - self._usual) > self._limit_ns:
             self._running = True
+            self._turns += turned
             self._run[foot].append(lead)
             return self._undo(foot)
         if self._running or self._steps:
@@ -85,7 +87,7 @@ class ClockJumps:
         leads = [lead for run in self._run.values() for lead in run]
         step = self._steps.get(foot)
         steady = 2 * (max(leads) - min(leads)) <= self._limit_ns
-        if step is None or len(leads) < NEW * len(FEET) or not steady:
+        if step is None or len(leads) < NEW * len(FEET) or self._turns < TURNS or not steady:
             return False
         excess = median_low(leads) - self._usual
         ahead = excess if foot == "right" else -excess

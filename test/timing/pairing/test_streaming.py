@@ -261,7 +261,7 @@ def test_clocks_that_are_set_together_cost_less_than_half_a_second(jump, rate, r
 
 @pytest.mark.parametrize("jump", JUMPS_S)
 @pytest.mark.parametrize("foot", ["left", "right"])
-@pytest.mark.parametrize("bunch", [1, 5])
+@pytest.mark.parametrize("bunch", [1, 5, 10])
 def test_a_clock_of_one_foot_that_is_set_is_learnt_again_and_counted(jump, foot, bunch):
     aligner, pairs, start = Aligner(), [], 10**18
     for k in range(0, 1000, bunch):
@@ -287,6 +287,17 @@ def test_a_foot_that_sends_what_it_had_held_back_has_no_clock_set():
                 pairs += aligner.push("right", waiting.pop(0), SAMPLE)
     assert aligner.counters["right_clock_set"] == 0
     assert both_there(pairs)[-1] == 9990 * MS
+
+
+@pytest.mark.parametrize("block", [50, 100, 150])
+def test_a_replay_that_comes_in_blocks_has_no_clock_set(block):
+    aligner = Aligner()
+    for k in range(0, 1800, block):
+        for foot in ("right", "left"):
+            for i in range(k, k + block):
+                if foot == "left" or not 600 <= i < 900:
+                    aligner.push(foot, i * 10 * MS, SAMPLE)
+    assert aligner.counters["left_clock_set"] == aligner.counters["right_clock_set"] == 0
 
 
 def test_a_hole_of_hours_on_a_uniform_grid_is_jumped_at_once():

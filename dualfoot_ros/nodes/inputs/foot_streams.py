@@ -99,7 +99,7 @@ class FootStreams:
         sample = self._read_sample(foot, message, stamp_ns)
         self._stamp_gap.observe(foot, stamp_ns)
         self._stamp_checks.observe(foot, header_ns, stamp_ns)
-        for pair in self.aligner.push(foot, stamp_ns, sample):
+        for pair in self.aligner.push(foot, stamp_ns, sample, arrival_ns):
             self._take_pair(pair)
         if self.states.observe():
             self.on_change()

@@ -1,4 +1,4 @@
-"""A clock of one foot that is set in mid-walk: recognised by the order of arrival, and undone."""
+"""A clock of one foot that is set in mid-walk: recognised by the arrivals, and undone."""
 
 from __future__ import annotations
 
@@ -30,6 +30,7 @@ class ClockJumps:
         self.shift_ns = dict.fromkeys(FEET, 0)
         self.jumps = dict.fromkeys(FEET, 0)
         self._newest: dict[str, int] = {}
+        self._ahead: dict[str, int] = {}  # of the time of arrival, where that is known
         self._turn = ""
         self._leads: deque[int] = deque(maxlen=USUAL)
         self._usual = 0
@@ -41,6 +42,7 @@ class ClockJumps:
 
     def _begin_run(self) -> None:
         self._run = {foot: deque[int](maxlen=NEW) for foot in FEET}
+        self._times = {foot: deque[tuple[int, int]](maxlen=NEW) for foot in FEET}
         self._running, self._turns = False, 0
 
     def usual_lead_ns(self, foot: str) -> int:
@@ -51,21 +53,26 @@ class ClockJumps:
         """Tell whether the clock of this foot alone seems to be set; it shows soon."""
         return self._running and list(self._steps) == [foot]
 
-    def is_set(self, foot: str, stamp_ns: int) -> bool:
+    def is_set(self, foot: str, stamp_ns: int, arrival_ns: int | None = None) -> bool:
         """Take the stamp of a sample as it came; return whether the foot's clock was set.
 
-        If so, ``shift_ns`` of the foot has changed.
+        If so, ``shift_ns`` of the foot has changed.  With times of arrival the leads are those of
+        the stamps against them, which no queue changes, and nothing is learnt from samples that
+        come faster or slower than they were taken.
         """
         stamp_ns += self.shift_ns[foot]
         step = stamp_ns - self._newest.get(foot, stamp_ns)
         self._newest[foot] = stamp_ns
+        self._ahead[foot] = stamp_ns - (arrival_ns or 0)
         if not -self._limit_ns <= step <= self._limit_ns:
             self._begin_run()
             self._steps[foot] = step
         if len(self._newest) < len(FEET):
             return False
         turned, self._turn = self._turn != foot, foot
-        return self._compare(foot, self._newest["right"] - self._newest["left"], turned)
+        if arrival_ns is not None:
+            self._times[foot].append((stamp_ns, arrival_ns))
+        return self._compare(foot, self._ahead["right"] - self._ahead["left"], turned)
 
     def _compare(self, foot: str, lead: int, turned: bool) -> bool:
         """Compare a lead with the usual one, which is taken where the feet deliver in turn."""
@@ -87,7 +94,9 @@ class ClockJumps:
         leads = [lead for run in self._run.values() for lead in run]
         step = self._steps.get(foot)
         steady = 2 * (max(leads) - min(leads)) <= self._limit_ns
-        if step is None or len(leads) < NEW * len(FEET) or self._turns < TURNS or not steady:
+        if step is None or len(leads) < NEW * len(FEET) or self._turns < TURNS:
+            return False
+        if not steady or not all(map(_is_at_its_pace, self._times.values())):
             return False
         excess = median_low(leads) - self._usual
         ahead = excess if foot == "right" else -excess
@@ -95,6 +104,17 @@ class ClockJumps:
             return False
         self.shift_ns[foot] -= ahead
         self._newest[foot] -= ahead
+        self._ahead[foot] -= ahead
         self.jumps[foot] += 1
         self._end_run()
         return True
+
+
+def _is_at_its_pace(times: deque[tuple[int, int]]) -> bool:
+    """Return whether samples (stamp, arrival) come about as fast as they were taken."""
+    if not times:
+        return True  # nobody knows when they came
+    stamps_ns, arrivals_ns = (
+        last - first for first, last in zip(times[0], times[-1], strict=True)
+    )
+    return stamps_ns < 2 * arrivals_ns < 4 * stamps_ns

@@ -12,9 +12,10 @@ foot, at its stamps, with NaN for the missing one.  A foot that is late is waite
 is ``max_delay`` old; then the other goes on alone, one sample late, until that foot is at most
 half of ``max_delay`` behind again.
 
-Nothing looks at arrival times, so any interleaving whose lateness is below ``max_delay`` gives
-the same pairs, bit for bit those of :func:`dualfoot_ros.timing.pairing.batch`; where a foot comes
-back after it was given up, if it is late by less than a sample.
+Times of arrival only tell whether a clock was set, so any interleaving whose lateness is below
+``max_delay`` gives the same pairs, bit for bit those of
+:func:`dualfoot_ros.timing.pairing.batch`; where a foot comes back after it was given up, if it is
+late by less than a sample.
 """
 
 from __future__ import annotations
@@ -76,8 +77,8 @@ class Aligner:
             return 0
         if own.first_ns is None:
             return other.newest_ns - other.first_ns
-        usual_ns = max(0, -self._jumps.usual_lead_ns(foot))
-        return max(0, other.newest_ns - own.newest_ns - min(usual_ns, self.config.max_delay_ns))
+        usual_ns = min(max(0, -self._jumps.usual_lead_ns(foot)), self.config.max_delay_ns)
+        return max(0, other.newest_ns - own.newest_ns - usual_ns)
 
     def reset(self) -> None:
         """Forget all samples; the counters and what clocks were set by stay."""
@@ -89,9 +90,13 @@ class Aligner:
         self.present = dict.fromkeys(FEET, False)
         self._paired_ns: int | None = None
 
-    def push(self, foot: str, stamp_ns: int, values: FloatArray) -> list[ImuPair]:
+    def push(
+        self, foot: str, stamp_ns: int, values: FloatArray, arrival_ns: int | None = None
+    ) -> list[ImuPair]:
         """Take one sample and return the pairs that are complete with it.
 
+        ``arrival_ns`` is when it came, by any clock; it only tells whether a clock was set, for
+        which the order of the calls serves where it is not known.
         ``values`` (6,) is specific force (m/s^2) and angular rate (rad/s).  A sample that cannot
         be used is counted, never an exception.  A stream that goes on at an older time (see
         ``restart_after``) resets the aligner, and the stamps of the pairs go back with it, unless
@@ -101,7 +106,7 @@ class Aligner:
             return []
         stamp_ns = int(stamp_ns)
         sample = np.array(values, dtype=np.float64)
-        is_set = self._jumps.is_set(foot, stamp_ns)
+        is_set = self._jumps.is_set(foot, stamp_ns, arrival_ns)
         stamp_ns += self._jumps.shift_ns[foot]
         if is_set:
             self._follow(foot, stamp_ns)

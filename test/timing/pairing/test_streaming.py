@@ -300,6 +300,25 @@ def test_a_replay_that_comes_in_blocks_has_no_clock_set(block):
     assert aligner.counters["left_clock_set"] == aligner.counters["right_clock_set"] == 0
 
 
+@pytest.mark.parametrize("jump", [0, -3600, -2, 1, 3600])
+@pytest.mark.parametrize("queued", [0, 100])
+def test_times_of_arrival_tell_a_clock_that_is_set_from_a_queue_that_is_worked_off(jump, queued):
+    """After a silence of the right foot the left one has samples queued."""
+    aligner, left = Aligner(), []
+    for k in range(2000):
+        now = 10**18 + k * 10 * MS
+        left.append(now)
+        if not 500 <= k < 500 + queued:
+            for at in left[: 1 if k < 900 else 2]:
+                aligner.push("left", at, SAMPLE, at + 2 * MS)
+            del left[: 1 if k < 900 else 2]
+        if not 400 <= k < 700:
+            set_by = jump * 10**9 if k >= 1200 else 0
+            aligner.push("right", now + set_by, SAMPLE, now + 3 * MS)
+    assert aligner.counters["left_clock_set"] == 0
+    assert aligner.counters["right_clock_set"] == (jump != 0)
+
+
 def test_a_hole_of_hours_on_a_uniform_grid_is_jumped_at_once():
     aligner = Aligner(AlignerConfig(rate=200.0))
     hours = 10 * 3600 * 10**9

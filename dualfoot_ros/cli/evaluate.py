@@ -62,6 +62,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         help="gyro biases that earlier walks of these sensors told; what this one tells is added",
     )
+    parser.add_argument(
+        "--feet",
+        choices=("both", "left", "right"),
+        default="both",
+        help="track one foot alone; with both, a foot that is missing is said (default: both)",
+    )
     add_report_arguments(parser)
     add_json_argument(parser)
     add_no_plots_argument(parser)
@@ -143,6 +149,7 @@ def _options(args: argparse.Namespace, calibration: Mapping[str, Correction]) ->
         reference=None if args.reference is None else Reference.load(args.reference),
         calibration=calibration,
         allow_not_finite=args.allow_nan,
+        feet=args.feet,
     )
 
 

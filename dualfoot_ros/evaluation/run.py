@@ -8,9 +8,18 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from ..core import METHODS, BiasPrior, TrackerConfig, Trajectory, nested
+from ..core import (
+    FEET,
+    METHODS,
+    BiasPrior,
+    EvaluationError,
+    TrackerConfig,
+    Trajectory,
+    nested,
+)
 from ..inspection import (
     Finding,
+    FindingKind,
     check_usable,
     start_findings,
     unconstrained_config,
@@ -37,6 +46,7 @@ class RunOptions:
     allow_not_finite : leave out and count samples with nan or inf, instead of refusing them
     check_feet : look for exchanged sensors, which tracks the recording a second time
     priors : gyro biases that are known before the walk, by foot
+    feet : "both", or the foot that is tracked alone, "left" or "right"
     """
 
     method: str | None = None
@@ -47,6 +57,7 @@ class RunOptions:
     allow_not_finite: bool = False
     check_feet: bool = True
     priors: Mapping[str, BiasPrior] = field(default_factory=dict)
+    feet: str = "both"
 
 
 def run(
@@ -58,7 +69,7 @@ def run(
 
     Parameters
     ----------
-    recording : of both feet; its truth and its reference are used where there are any
+    recording : of the feet; its truth and its reference are used where there are any
     config : of the tracker, or name of a preset ("liu2023"), or path of a parameter file
         (default: the defaults of the package)
     options : see :class:`RunOptions`
@@ -80,7 +91,10 @@ def run(
     """
     options = options or RunOptions()
     chosen = choose_config(config, options)
+    recording = choose_feet(recording, options.feet)
     findings = check_usable(recording, allow_not_finite=options.allow_not_finite)
+    if options.feet != "both":
+        findings = tuple(f for f in findings if f.kind is not FindingKind.MISSING)
     return run_checked(recording, chosen, options, findings)
 
 
@@ -110,6 +124,23 @@ def run_checked(
         notes=(*evaluation.notes, *(f"warning: {finding.sentence}" for finding in of_walk)),
         run_s=run_s,
     )
+
+
+def choose_feet(recording: Recording, feet: str) -> Recording:
+    """Return the recording with the foot that is to be tracked alone, or with "both".
+
+    Raises
+    ------
+    EvaluationError
+        When ``feet`` is none of these, or that foot has no samples.
+    """
+    if feet == "both":
+        return recording
+    if feet not in FEET:
+        raise EvaluationError(f"feet is '{feet}'; allowed is left, right or both")
+    if not recording.imu(feet):
+        raise EvaluationError(f"there are no samples of the {feet} foot, which is asked for")
+    return recording.of_feet([feet])
 
 
 def choose_config(config: TrackerConfig | str | Path | None, options: RunOptions) -> TrackerConfig:
@@ -142,7 +173,8 @@ def _walk_findings(
     recording: Recording, config: TrackerConfig, trajectory: Trajectory
 ) -> Iterator[Finding]:
     """Yield the findings that only tracks without constraints between the feet show."""
-    if METHODS[config.method].sensors_on_one_shoe:
+    both = recording.left and recording.right
+    if METHODS[config.method].sensors_on_one_shoe or not both:
         return
     alone = unconstrained_config(config)
     yield from walk_findings(trajectory if config == alone else track(recording, alone))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from ..core import (
     FEET,
     BiasPrior,
@@ -23,6 +25,8 @@ from ..recording import Recording
 from ..timing import align_with_report
 from .frames.gauge import Truth
 
+NO_SAMPLES = ImuSeries(np.empty(0, dtype=np.int64), np.empty((0, 3)), np.empty((0, 3)))
+
 
 @dataclass(frozen=True)
 class PairedSamples:
@@ -30,7 +34,7 @@ class PairedSamples:
 
     Attributes
     ----------
-    left, right : series with equal stamps
+    left, right : series with equal stamps; NaN where that foot is missing
     pressure : air pressure by "left", "right" or "both", as it was measured
     fields : magnetic field by "left" or "right", as it was measured
     counters : of the time alignment, what became of the samples
@@ -58,8 +62,8 @@ def track(
     Raises
     ------
     EvaluationError
-        When a foot is missing or has no samples, the feet share no time, or nobody walked after
-        the first standstill; or the magnetic heading is on without any magnetic field.
+        When there are no samples, the feet share no time, or nobody walked after the first
+        standstill; or the magnetic heading is on without any magnetic field.
     DualFootError
         What time alignment and tracker refuse: two recordings in one, no standstill.
     """
@@ -70,18 +74,18 @@ def track(
 
 
 def pair_samples(recording: Recording) -> PairedSamples:
-    """Return the samples of both feet on one time grid.
+    """Return the samples of both feet on one time grid; NaN where a foot is missing.
 
     Raises
     ------
     EvaluationError
-        When a foot is missing or has no samples, or the feet share no time.
+        When there are no samples, or the feet share no time.
     TimingError
         When the stamps of a foot jump back and go on from there: two recordings in one.
     """
-    measured = _samples(recording, "left"), _samples(recording, "right")
+    measured = _samples(recording)
     left, right, report = align_with_report(*measured)
-    if len(left) == 0:
+    if all(map(len, measured)) and report.overlap_s <= 0.0:
         raise EvaluationError(
             f"the feet share no time (overlap {report.overlap_s:.1f} s), so there are no pairs of "
             "samples; were both recorded together, and are their clocks synchronised?"
@@ -133,7 +137,8 @@ def bias_priors(
     if not config.alignment.last_stand:
         return priors
     for foot, series in zip(FEET, (samples.left, samples.right), strict=True):
-        after = bias_after(series, config)
+        there = np.flatnonzero(~np.isnan(series.specific_force).any(axis=1))
+        after = bias_after(series[there], config)
         if after is not None:
             priors[foot] = after.also(priors.get(foot))
     return priors
@@ -159,14 +164,12 @@ def _check_walked(trajectory: Trajectory, samples: ImuSeries) -> None:
         )
 
 
-def _samples(recording: Recording, foot: str) -> ImuSeries:
-    samples = recording.imu(foot)
-    if samples is not None and len(samples) > 0:
-        return samples
-    other = FEET[1 - FEET.index(foot)]
-    beside = recording.imu(other)
-    present = f"only the {other} foot" if beside is not None and len(beside) else "neither foot"
+def _samples(recording: Recording) -> tuple[ImuSeries, ImuSeries]:
+    """Return the samples of both feet; of one that is missing, none."""
+    left, right = (recording.imu(foot) or NO_SAMPLES for foot in FEET)
+    if len(left) or len(right):
+        return left, right
     raise EvaluationError(
-        f"no samples of the {foot} foot: the recording holds {present}, and both are needed; "
-        f"'dualfoot info' lists its topics, --{foot}-topic names another one"
+        "the recording holds no samples of either foot; 'dualfoot info' lists its topics, "
+        "--left-topic and --right-topic name others"
     )

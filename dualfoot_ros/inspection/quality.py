@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import FloatArray, ImuSeries
+from ..core import FloatArray, ImuSeries, IntArray
 from ..timing import AlignerConfig, clean
 from .standstill import Stand, first_stand
 from .stuck_values import Stuck, find_stuck
@@ -27,7 +27,8 @@ class Quality:
     begins_anew : the stamps jump back for good somewhere (two recordings in one)
     start_s, end_s : s, first and last usable stamp
     rate_hz : Hz, from the median interval
-    jitter_s : s, 95 % of the intervals differ from the median by less (intervals without gaps)
+    jitter_s : s, 95 % of the intervals differ from the median, or from a multiple of it where
+        samples are lost, by less (intervals without gaps)
     gaps, longest_gap_s : intervals longer than ``Sync.max_gap``, and the longest interval
     stand : the first standstill, or None
     median_force, high_rate : median of |specific force|; 98 % quantile of |angular rate|
@@ -72,7 +73,7 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
     bad = np.flatnonzero(~finite.all(axis=1))
     steps = np.diff(good.stamp_ns)
     regular = steps[steps <= config.max_gap_ns]
-    off = np.abs(regular - np.median(regular)) if len(regular) else np.zeros(1)
+    off = _unevenness(regular) if len(regular) else np.zeros(1)
     some = len(good) > 0
     return Quality(
         samples=len(series),
@@ -113,6 +114,13 @@ def clipped(values: FloatArray, least: float) -> int:
             if held.any() and side.max() > least:
                 count += int(top.sum())
     return count
+
+
+def _unevenness(intervals: IntArray) -> FloatArray:
+    """Return (N,) how far intervals are from whole ones: lost samples make them no less even."""
+    usual = max(1.0, float(np.median(intervals)))
+    off: FloatArray = np.abs(intervals - usual * np.maximum(1.0, np.rint(intervals / usual)))
+    return off
 
 
 def _quantile(vectors: FloatArray, share: float) -> float:

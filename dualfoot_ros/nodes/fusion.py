@@ -79,6 +79,7 @@ class FusionNode(Node):
             external=own.sync == "external",
         )
         self._reporter = Reporter(self, values, self.report.collect)
+        self.streams.on_change = self._reporter.report
 
     def _listen(self, external: bool, values: dict[str, Any]) -> None:
         """Subscribe to the feet; time_sync has already applied the stamping to external pairs."""
@@ -138,7 +139,7 @@ class FusionNode(Node):
         self.memory.note(update.announced)
         if any(event.kind is EventKind.ALIGNED for event in update.announced):
             self.increments.log()
-        self.outputs.publish(update)
+        self.outputs.publish(update, pair.present)
 
     def destroy_node(self) -> None:
         """Keep what the stands have told, and end."""

@@ -137,7 +137,9 @@ class ImuAdapterNode(Node):
         config = group(InputConfig, values, "input.")
         if source.kind == "topic":
             profile = qos.sensor(config.depth)
-            self._input = WatchedInput(self, Imu, source.target, self._relay, profile)
+            self._input = WatchedInput(
+                self, Imu, source.target, self._relay, profile, latency_s=config.latency
+            )
             self.monitor = InputMonitor(self, [self._input], config)
         elif source.kind == sources.DEVICE:
             self._read_device(source, config, group(PlayConfig, values, "play."))

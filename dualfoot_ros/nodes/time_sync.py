@@ -32,7 +32,10 @@ PROGRAM = Program(
 
 
 class TimeSyncNode(Node):
-    """Node that publishes every pair of samples as two messages with one stamp."""
+    """Node that publishes every pair of samples as two messages with one stamp.
+
+    Where a foot is missing there is the message of the other one only.
+    """
 
     def __init__(self, **options: Any) -> None:
         """Take the options of :class:`rclpy.node.Node`; raise ConfigError for bad parameters."""
@@ -53,6 +56,7 @@ class TimeSyncNode(Node):
         )
         self._rates = Rates()
         self._reporter = Reporter(self, values, self._collect)
+        self.streams.on_change = self._reporter.report
 
     def _read_sample(self, foot: str, received: Imu, _stamp_ns: int) -> FloatArray:
         """Return the values (6,) of a message; pass on what interpolation does not change."""
@@ -63,7 +67,9 @@ class TimeSyncNode(Node):
         return imu_values(received)
 
     def _publish(self, pair: ImuPair) -> None:
-        for k, foot in enumerate(FEET):
+        for k, (foot, there) in enumerate(zip(FEET, pair.present, strict=True)):
+            if not there:
+                continue
             message = self._messages[foot]
             set_time(message.header.stamp, pair.stamp_ns)
             set_imu_values(message, pair.values[6 * k : 6 * k + 6])

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
-from ..core import ImuSeries, PoseSeries, PressureSeries
+from ..core import FEET, ImuSeries, PoseSeries, PressureSeries
 from .reference import Reference
 from .topics import Topics
 
@@ -58,6 +58,13 @@ class Recording:
             if (samples := self.imu(foot)) is not None
         }
         return replace(self, **series)  # type: ignore[arg-type]
+
+    def of_feet(self, feet: Sequence[str]) -> Recording:
+        """Return the recording with the sensors of these feet only, and what they measured."""
+        out = [foot for foot in FEET if foot not in feet]
+        gone = {name: None for foot in out for name in (foot, f"{foot}_truth")}
+        pressure = {worn: each for worn, each in self.pressure.items() if worn not in out}
+        return replace(self, pressure=pressure, **gone)  # type: ignore[arg-type]
 
     def truth(self, foot: str) -> PoseSeries | None:
         """Return the true poses of ``foot``, "left" or "right"."""

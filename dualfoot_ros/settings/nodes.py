@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..core import Increments, MountingConfig, Parameters, ParameterSpec, parameter
+from ..core import FEET, Increments, MountingConfig, Parameters, ParameterSpec, parameter
 from ..drivers import CheckConfig
 from ..timing import POLICIES, AlignerConfig, DeviceClockConfig, StampConfig
 
@@ -19,6 +19,14 @@ class InputConfig(Parameters):
 
     depth: int = parameter(
         1000, "queue of each input, samples (2 s at 500 Hz)", minimum=1, maximum=100000
+    )
+    latency: float = parameter(
+        2.0,
+        "when a sample has waited so long for this process, those that wait are dropped down to "
+        "the newest, counted and said (0: never, for runs faster than real time)",
+        unit="s",
+        minimum=0.0,
+        maximum=60.0,
     )
     silence: float = parameter(
         2.5,
@@ -65,6 +73,11 @@ class FusionConfig(Parameters):
         "internal",
         "internal: align two raw streams here; external: take pairs with equal stamps",
         choices=SYNC_CHOICES,
+    )
+    feet: str = parameter(
+        "both",
+        "left or right: track that foot alone, and neither listen to the other nor wait for it",
+        choices=("both", *FEET),
     )
     publish_tf: bool = parameter(False, "broadcast the frames too (needs tf2_msgs)")
     engine: str = parameter(

@@ -106,9 +106,10 @@ def test_what_cannot_be_used_is_a_sentence_and_exit_code_2(bag, arguments, sente
     assert captured.out == ""
 
 
-def test_one_foot_is_not_enough_and_leaves_no_folder(one_foot, tmp_path, capsys):
-    assert main(["evaluate", one_foot, "-o", str(tmp_path / "report")]) == 2
-    assert "only the left foot" in capsys.readouterr().err
+def test_a_foot_that_is_asked_for_and_missing_leaves_no_folder(one_foot, tmp_path, capsys):
+    out = str(tmp_path / "report")
+    assert main(["evaluate", one_foot, "--feet", "right", "-o", out]) == 2
+    assert "no samples of the right foot, which is asked for" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 

@@ -11,9 +11,16 @@ import pytest
 from dualfoot_ros.calibration import SensorCalibration, Triad
 from dualfoot_ros.cli.main import main
 from dualfoot_ros.core import ConfigError, TrackerConfig
-from dualfoot_ros.evaluation import Align, Options, RunOptions, run
+from dualfoot_ros.evaluation import Align, EvaluationError, Options, RunOptions, run
 from dualfoot_ros.inspection import FindingKind
-from dualfoot_ros.recording import Recording, RecordingError, Reference, read_bag, write_bag
+from dualfoot_ros.recording import (
+    Recording,
+    RecordingError,
+    Reference,
+    Topics,
+    read_bag,
+    write_bag,
+)
 from dualfoot_ros.simulation import WalkConfig, simulate
 
 
@@ -77,8 +84,15 @@ def test_an_unknown_preset_or_parameter_is_refused_before_the_recording_is_looke
 
 
 def test_a_recording_that_cannot_be_used_is_refused_with_its_finding(walked):
+    asked_for = replace(Topics(), right=replace(Topics().right, imu="/imu"))
     with pytest.raises(RecordingError, match="no samples of the right foot"):
-        run(replace(walked, right=None))
+        run(replace(walked, right=None, topics=asked_for))
+
+
+@pytest.mark.parametrize(("feet", "sentence"), [("nix", "allowed is left"), ("right", "no samp")])
+def test_a_foot_that_is_asked_for_alone_must_be_there(walked, feet, sentence):
+    with pytest.raises(EvaluationError, match=sentence):
+        run(replace(walked, right=None), options=RunOptions(feet=feet))
 
 
 def test_warnings_about_the_recording_are_findings_of_the_result(walked):

@@ -7,7 +7,7 @@ import pytest
 
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.samples.series import ImuSeries, PressureSeries
-from dualfoot_ros.evaluation import EvaluationError, evaluate, track, truth_of
+from dualfoot_ros.evaluation import EvaluationError, evaluate, pair_samples, track, truth_of
 from dualfoot_ros.recording.recording import Recording
 from dualfoot_ros.simulation import (
     BarometerConfig,
@@ -49,12 +49,15 @@ def test_the_samples_that_were_left_out_are_counted_and_said(walked):
     assert any("4 samples of the left foot" in note for note in evaluate(found).notes)
 
 
-def test_a_foot_without_samples_is_refused_by_name(walked):
-    with pytest.raises(EvaluationError, match="only the right foot"):
-        track(replace(walked, left=None))
+def test_of_a_foot_without_samples_every_pair_has_the_other_one_only(walked):
     empty = ImuSeries(np.empty(0), np.empty((0, 3)), np.empty((0, 3)))
-    with pytest.raises(EvaluationError, match="no samples of the right foot"):
-        track(replace(walked, right=empty))
+    for alone in (replace(walked, right=None), replace(walked, right=empty)):
+        samples = pair_samples(alone)
+        assert np.array_equal(samples.left.specific_force, walked.left.specific_force)
+        assert np.isnan(samples.right.angular_rate).all()
+        assert samples.counters["right_missing"] == len(walked.left)
+    with pytest.raises(EvaluationError, match="no samples of either foot"):
+        pair_samples(replace(walked, left=None, right=empty))
 
 
 def test_feet_that_were_not_recorded_at_the_same_time_are_refused(walked):

@@ -7,9 +7,10 @@ import pytest
 from recording.samples import GRAVITY, RATE_HZ, moving
 
 from dualfoot_ros.core import ImuSeries
-from dualfoot_ros.inspection.findings import findings_of, require_usable
+from dualfoot_ros.inspection import FindingKind
+from dualfoot_ros.inspection.findings import check_usable, findings_of, require_usable
 from dualfoot_ros.inspection.quality import clipped, quality_of
-from dualfoot_ros.recording import Recording, RecordingError
+from dualfoot_ros.recording import Recording, RecordingError, Topics
 
 
 def scaled(series, force=1.0, rate=1.0):
@@ -37,7 +38,7 @@ def with_nan(series):
 
 BAD = [
     (Recording(), "missing", "no samples of either foot"),
-    (Recording(left=moving(1)), "missing", "no samples of the right foot.*only the left foot"),
+    (Recording(left=moving(1)), "missing", "no samples of the right foot.*the left foot is"),
     (of(right=moving(2)[:0]), "missing", "no samples of the right foot"),
     (of(left=moving(1)[:1]), "empty", "left foot: 1 of 1 samples can be used"),
     (of(left=with_nan(moving(1))), "not_finite", "left foot: 1 of 1200 samples .* sample 700"),
@@ -59,6 +60,26 @@ def test_what_cannot_be_used_is_refused_with_a_sentence(recording, name, sentenc
     assert name in named(recording)
     with pytest.raises(RecordingError, match=sentence):
         require_usable(recording)
+
+
+def test_a_foot_that_is_missing_is_a_warning_as_the_other_one_is_tracked_alone():
+    (finding,) = check_usable(Recording(left=moving(1)))
+    assert finding.kind is FindingKind.MISSING and finding.about == "right"
+    assert "so the left foot is tracked alone" in finding.text
+
+
+def test_a_foot_that_begins_late_or_ends_early_is_a_warning_with_the_time():
+    late, early = of(left=moving(1)[450:]), of(right=moving(2)[:700])
+    for recording, words in ((late, "left foot begins 4.5 s"), (early, "right foot ends 5.0 s")):
+        (finding,) = (f for f in check_usable(recording) if f.kind is FindingKind.ONE_FOOT)
+        assert words in finding.text and "tracked alone" in finding.text
+    assert "one_foot" not in named(of(right=moving(2)[:1000]))
+
+
+def test_a_topic_that_was_asked_for_by_name_must_be_there():
+    topics = replace(Topics(), right=replace(Topics().right, imu="/imu"))
+    with pytest.raises(RecordingError, match="no samples of the right foot"):
+        check_usable(Recording(left=moving(1), topics=topics))
 
 
 def test_two_recordings_in_one_are_refused():

@@ -57,6 +57,7 @@ def exchanged():
 RECORDINGS = {
     "good": lambda: Recording(moving(1), moving(2)),
     "one foot": lambda: Recording(moving(1)),
+    "ends early": lambda: Recording(moving(1), moving(2)[:700]),
     "empty": lambda: Recording(moving(1)[:1], moving(2)),
     "nan": lambda: Recording(with_nan(moving(1)), moving(2)),
     "two in one": lambda: Recording(again(moving(1)), moving(2)),

@@ -29,7 +29,9 @@ from dualfoot_ros.drivers import CheckConfig, Sample, SensorCheck, State
 from dualfoot_ros.nodes.adapter.adapter_report import AdapterReport
 from dualfoot_ros.nodes.adapter.device import Device
 from dualfoot_ros.nodes.inputs.field_topics import FieldInput
+from dualfoot_ros.nodes.inputs.foot_states import FootStates
 from dualfoot_ros.nodes.inputs.pressure_topics import PressureInputs
+from dualfoot_ros.nodes.inputs.stamp_checks import StampChecks
 from dualfoot_ros.nodes.inputs.stamp_gap import StampGap
 from dualfoot_ros.nodes.inputs.stamper import Stamper
 from dualfoot_ros.nodes.inputs.unit_check import WINDOW, UnitCheck
@@ -54,6 +56,7 @@ class Log:
     def __init__(self):
         self.lines = []
         self.nanoseconds = 0
+        self.ros_time_is_active = False
 
     def warning(self, text):
         self.lines.append(text)
@@ -165,6 +168,50 @@ def stamps_apart(stage):
                     aligner.push(foot, stamp_ns, STANDING)
             if k % 100 == 99:
                 stage.report(gap.describe)
+
+
+def one_foot(stage):
+    aligner = Aligner()
+    states, gap = FootStates(aligner, ("left", "right")), StampGap(aligner)
+    for k in range(700):
+        stage.now_s += 1e-9 * STEP_NS
+        for foot in ("left", "right") if not 100 <= k < 200 else ("left",):
+            stamp_ns = 10**12 + k * STEP_NS
+            gap.observe(foot, stamp_ns)
+            broken = foot == "right" and k >= 300
+            aligner.push(foot, stamp_ns, STANDING * (math.nan if broken else 1.0))
+            states.observe()
+        if k % 100 == 99:
+            stage.report(states.describe, gap.describe)
+
+
+def bad_stamps(stage):
+    late = np.random.default_rng(1).exponential(6e6, 1000).astype(np.int64)
+    arrived = np.maximum.accumulate(np.arange(1000) * STEP_NS + late) + np.arange(1000)
+    back = np.where(np.arange(1000) > 500, -HOUR_NS, 0)
+    even = np.arange(1000) * STEP_NS
+    for left, right in (
+        (even, np.full(1000, -(10**12))),
+        (even, even // (10 * STEP_NS) * 10 * STEP_NS),
+        (even, arrived),
+        (even, even + back),
+        (even + back, even + back),
+    ):
+        aligner = Aligner()
+        checks = StampChecks(aligner, lambda _: "header")
+        for k in range(1000):
+            for foot, stamp_ns in (("left", int(left[k])), ("right", int(right[k]))):
+                checks.observe(foot, 10**12 + stamp_ns, 10**12 + stamp_ns)
+                aligner.push(foot, 10**12 + stamp_ns, STANDING)
+        stage.report(checks.describe)
+
+
+def too_slow(stage):
+    graph = Graph()
+    watched = WatchedInput(graph, Imu, "imu", lambda _: None, qos.sensor(10), latency_s=2.0)
+    monitor = InputMonitor(graph, [watched], InputConfig())
+    watched._receive(Imu(), {"received_timestamp": time.time_ns() - 10**10})
+    stage.report(monitor.describe, graph=graph)
 
 
 def device_clocks(stage):
@@ -285,6 +332,9 @@ def main():
         silent_inputs,
         wrong_units,
         stamps_apart,
+        one_foot,
+        bad_stamps,
+        too_slow,
         device_clocks,
         sensor_faults,
         devices,

@@ -39,7 +39,7 @@ FEET = ("left", "right")
 def test_two_streams_leave_with_equal_stamps_and_the_numbers_of_the_batch(bench, walk_bag):
     node = bench.add(TimeSyncNode, {"input.depth": 10_000})
     feet, recording = Feet(bench, node), read_bag(walk_bag)
-    series = {"left": recording.left[:300], "right": recording.right[7:290]}
+    series = {"left": recording.left[:300], "right": recording.right[3:296]}
     for foot, each in series.items():
         values = np.hstack([each.specific_force, each.angular_rate])
         for stamp_ns, row in zip(each.stamp_ns.tolist(), values, strict=True):
@@ -72,14 +72,17 @@ def test_bad_samples_are_refused_and_counted(bench):
     assert counters["right_out_of_order"] == 1 and counters["pairs"] == 5
 
 
-def test_one_foot_alone_gives_no_pairs(bench):
+def test_one_foot_alone_goes_on_at_its_rate_and_the_other_is_stale(bench):
     node = bench.add(TimeSyncNode)
     feet = Feet(bench, node)
     for k in range(200):
         feet.raw["left"].publish(imu(k * STEP_NS))
     bench.until(lambda: node.streams.inputs["left"].received == 200, "samples")
-    assert feet.got == {"left": [], "right": []}
-    assert node.streams.aligner.counters["outside"] > 0
+    bench.until(lambda: len(feet.got["left"]) == 199, "pairs of the left foot")
+    assert [to_ns(m.header.stamp) for m in feet.got["left"]] == [k * STEP_NS for k in range(199)]
+    assert feet.got["right"] == []
+    assert node.streams.aligner.counters["right_missing"] == 199
+    assert node.streams.states.states == {"left": "OK", "right": "STALE"}
 
 
 def test_a_bag_that_starts_again_is_counted_as_a_restart(bench):

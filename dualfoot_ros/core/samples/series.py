@@ -99,11 +99,17 @@ class ImuPair(NamedTuple):
     """One synchronised pair of samples.
 
     ``values`` is (12,): specific force (m/s^2) and angular rate (rad/s) of the left foot, then
-    the same of the right foot.
+    the same of the right foot; all six of a foot that has no sample at this time are NaN.
     """
 
     stamp_ns: int
     values: FloatArray
+
+    @property
+    def present(self) -> tuple[bool, bool]:
+        """Whether the left and the right foot have a sample."""
+        left, right = self.values[:6], self.values[6:]
+        return not np.isnan(left).all(), not np.isnan(right).all()
 
     @classmethod
     def of(
@@ -125,6 +131,8 @@ class ImuPair(NamedTuple):
 
 def stack_pairs(left: ImuSeries, right: ImuSeries) -> FloatArray:
     """Return (N, 12) values as in :class:`ImuPair`; the series must share their stamps.
+
+    Rows in which a foot is missing have NaN in all six of its values.
 
     Raises
     ------

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...core import EvaluationError, FloatArray, ImuSeries, Trajectory
 from ...recording import Recording
-from ...timing import align
+from ...timing import align_with_report
 from ..frames.association import Footfalls
 
 STRIDE = 68
@@ -30,8 +30,8 @@ def repeated(recording: Recording, times: int) -> Recording:
         return recording
     if recording.left is None or recording.right is None:
         raise EvaluationError("both feet are needed to repeat a walk")
-    left, right = align(recording.left, recording.right)
-    if len(left) < 2:
+    left, right, report = align_with_report(recording.left, recording.right)
+    if report.overlap_s <= 0.0:
         raise EvaluationError("the feet share no time, so there is nothing to repeat")
     feet = [_repeat_samples(foot, times) for foot in (left, right)]
     reference = recording.reference

@@ -42,6 +42,7 @@ class FindingKind(StrEnum):
     STAMPS = "stamps"
     NO_OVERLAP = "no_overlap"
     RATES = "rates"
+    ONE_FOOT = "one_foot"
     NOT_STAMPED = "not_stamped"
     CLOCK_REFUSED = "clock_refused", True
     CLOCK_SETTLING = "clock_settling"
@@ -49,6 +50,12 @@ class FindingKind(StrEnum):
     STAMPS_APART = "stamps_apart", True
     LATE_SAMPLES = "late_samples", True
     STAMPS_NOT_SHARED = "stamps_not_shared"
+    ZERO_STAMPS = "zero_stamps", True
+    EQUAL_STAMPS = "equal_stamps", True
+    JITTER = "jitter", True
+    CLOCK_SET = "clock_set", True
+    NO_PAIRS = "no_pairs", True
+    STALE_FOOT = "stale_foot", True
 
     # air pressure and magnetic field
     PRESSURE_RANGE = "pressure_range"
@@ -73,6 +80,7 @@ class FindingKind(StrEnum):
     BEGINS_LATE = "begins_late"
     SILENT = "silent"
     LOST_MESSAGES = "lost_messages"
+    FALLING_BEHIND = "falling_behind", True
 
     # links and devices
     LINK_DOWN = "link_down"

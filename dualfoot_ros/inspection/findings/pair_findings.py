@@ -7,26 +7,29 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...core import FEET
-from ...recording import Recording
+from ...recording import Recording, Topics
 from ..quality import Quality
 from .finding import Finding, Severity
 from .finding_kinds import FindingKind
 
 RATE_RATIO = 1.5
+ALONE_S = 3.0  # at the start or the end of a recording
 
 
 def find_missing(recording: Recording) -> Iterator[Finding]:
-    """Yield a finding when a foot has no samples."""
+    """Yield a finding when a foot has no samples; the other one can be tracked alone."""
     absent = [foot for foot in FEET if not recording.imu(foot)]
     if not absent:
         return
     topics = ", ".join(f"'{recording.topics.of(foot).imu}'" for foot in absent)
     present = [foot for foot in FEET if foot not in absent]
     which = f"the {absent[0]} foot" if present else "either foot"
-    only = f", only the {present[0]} foot has some" if present else ""
+    usual = all(recording.topics.of(foot).imu == Topics().of(foot).imu for foot in absent)
+    goes_on = bool(present) and usual  # a topic that was asked for by name must be there
+    only = f", so the {present[0]} foot is tracked alone" if goes_on else ""
     yield Finding(
         FindingKind.MISSING,
-        Severity.ERROR,
+        Severity.WARNING if goes_on else Severity.ERROR,
         f"there are no samples of {which} ({topics}){only}",
         _topic_advice(recording),
         absent[0] if present else "",
@@ -56,6 +59,26 @@ def find_no_overlap(left: Quality, right: Quality) -> Iterator[Finding]:
             "'dualfoot sync BAG -o ALIGNED' finds the offset from how the feet moved, and "
             "'dualfoot import SOURCE --right-offset SECONDS' takes a known one",
         )
+
+
+def find_one_foot(left: Quality, right: Quality) -> Iterator[Finding]:
+    """Yield a finding when a foot begins much later, or ends much earlier, than the other."""
+    for foot, own, other in (("left", left, right), ("right", right, left)):
+        if own.start_s >= other.end_s or own.end_s <= other.start_s:
+            return  # they do not overlap, which is another finding
+        for verb, apart_s in (
+            ("begins {:.1f} s after", own.start_s - other.start_s),
+            ("ends {:.1f} s before", other.end_s - own.end_s),
+        ):
+            if apart_s > ALONE_S:
+                yield Finding(
+                    FindingKind.ONE_FOOT,
+                    Severity.WARNING,
+                    f"the {foot} foot {verb.format(apart_s)} the other one, which is tracked "
+                    "alone there",
+                    "check the sensor and its link",
+                    f"{foot} {verb.split()[0]}",
+                )
 
 
 def find_different_rates(left: Quality, right: Quality) -> Iterator[Finding]:

@@ -14,7 +14,7 @@ from ..quality import Quality, quality_of
 from .field_findings import field_findings
 from .finding import Finding
 from .finding_kinds import FindingKind
-from .pair_findings import find_different_rates, find_missing, find_no_overlap
+from .pair_findings import find_different_rates, find_missing, find_no_overlap, find_one_foot
 from .pressure_findings import pressure_findings
 from .sample_findings import (
     LEAST_SAMPLES,
@@ -37,7 +37,7 @@ PairFindings = Callable[[Quality, Quality], Iterator[Finding]]
 
 OF_SAMPLES: Sequence[FootFindings] = (find_not_finite, find_too_few, find_second_recording)
 OF_UNITS: Sequence[FootFindings] = (find_force_unit, find_rate_unit)
-OF_PAIR: Sequence[PairFindings] = (find_no_overlap, find_different_rates)
+OF_PAIR: Sequence[PairFindings] = (find_no_overlap, find_one_foot, find_different_rates)
 OF_STREAM: Sequence[FootFindings] = (
     find_stuck_values,
     find_no_standstill,
@@ -51,9 +51,10 @@ OF_STREAM: Sequence[FootFindings] = (
 def require_usable(
     recording: Recording, *, allow_not_finite: bool = False
 ) -> tuple[ImuSeries, ImuSeries]:
-    """Return the samples of both feet; raise as :func:`check_usable`."""
-    check_usable(recording, allow_not_finite=allow_not_finite)
-    assert recording.left is not None and recording.right is not None
+    """Return the samples of both feet; raise as :func:`check_usable`, and when a foot has none."""
+    findings = check_usable(recording, allow_not_finite=allow_not_finite)
+    if not recording.left or not recording.right:
+        raise RecordingError(next(f for f in findings if f.kind is FindingKind.MISSING).sentence)
     return recording.left, recording.right
 
 

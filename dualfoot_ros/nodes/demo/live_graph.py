@@ -64,11 +64,13 @@ class LiveGraph:
             raise
 
     def _build(self, bag: Path, configs: Mapping[str, TrackerConfig]) -> None:
-        self.sync = self._add(TimeSyncNode, {}, "")
+        patient = {"input.latency": 0.0}  # as fast as they follow, so samples may wait
+        self.sync = self._add(TimeSyncNode, patient, "")
         self.fusions, self.collectors = {}, {}
         for name, config in configs.items():
             space = f"/{name}"
-            values = {**config.to_mapping(), "sync": "external", "engine": "compiled"}
+            own = {"sync": "external", "engine": "compiled"}
+            values = {**config.to_mapping(), **own, **patient}
             self.fusions[name] = self._add(
                 FusionNode, values, space, cli_args=_remap_inputs(self._space)
             )
@@ -92,18 +94,20 @@ class LiveGraph:
     def _under_way(self) -> list[int]:
         """Return how many samples wait between the nodes, a number a hop."""
         received = self.sync.streams.received
-        pairs = self.sync.streams.aligner.counters["pairs"]
+        counters = self.sync.streams.aligner.counters
+        missing = sum(counters[f"{foot}_missing"] for foot in FEET)
+        sent = len(FEET) * counters["pairs"] - missing
         pressures = self.replay.pressure.sent
         fields = sum(output.sent for output in self.replay.fields.values())
         waiting = [self.replay.player.played - pressures - fields - received]
         for name, fusion in self.fusions.items():
             collector = self.collectors[name].messages
-            waiting.append(2 * pairs - fusion.streams.received)
+            waiting.append(sent - fusion.streams.received)
             if fusion.pressure is not None:
                 waiting.append(pressures - fusion.pressure.received)
             if fusion.fields is not None:
                 waiting.append(fields - fusion.fields.received)
-            waiting.append(3 * fusion.outputs.published - sum(map(len, collector.values())))
+            waiting.append(fusion.outputs.messages - sum(map(len, collector.values())))
         return waiting
 
     def _has_room(self) -> bool:

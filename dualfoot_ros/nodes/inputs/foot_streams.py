@@ -16,6 +16,8 @@ from ..ros.declared_parameters import group
 from ..ros.messages import to_ns
 from ..ros.status import Status
 from ..ros.watched_input import InputMonitor, Watched, WatchedInput
+from .foot_states import FootStates
+from .stamp_checks import StampChecks
 from .stamp_gap import StampGap
 from .stamper import Stamper
 
@@ -31,6 +33,8 @@ class FootStreams:
     inputs : the subscriptions, by foot
     stamper : gives each sample its stamp, or refuses it
     aligner : makes the pairs
+    states : whether each foot is there
+    on_change : called when a foot has become stale, or is back
     """
 
     def __init__(
@@ -49,7 +53,8 @@ class FootStreams:
 
         Parameters
         ----------
-        values : the declared parameters of ``node``: those of ``aligner``, ``clock`` and ``input``
+        values : the declared parameters of ``node``: those of ``aligner``, ``clock`` and
+            ``input``, and ``feet`` where one foot alone can be asked for
         read_sample : called with foot, message and stamp (ns) of every sample that has one;
             returns its specific force and angular rate (6,)
         take_pair : called with every pair that is complete
@@ -58,14 +63,27 @@ class FootStreams:
         remedy : that of the finding on a silent input
         """
         self._read_sample, self._take_pair = read_sample, take_pair
-        self.aligner = Aligner(group(AlignerConfig, values, "aligner."))
+        only = values.get("feet", "both")
+        feet = FEET if only == "both" else (only,)
+        self.aligner = Aligner(group(AlignerConfig, values, "aligner."), feet)
+        self.states = FootStates(self.aligner, feet)
+        self.on_change: Callable[[], None] = _do_nothing
         self.stamper = Stamper(stamping, group(DeviceClockConfig, values, "clock."))
         self._stamp_gap = StampGap(self.aligner)
+        self._stamp_checks = StampChecks(self.aligner, stamping.policy)
         config = group(InputConfig, values, "input.")
         profile = qos.sensor(config.depth)
         self.inputs = {
-            foot: WatchedInput(node, Imu, f"{foot}/{topic}", self._receiver(foot), profile, remedy)
-            for foot in FEET
+            foot: WatchedInput(
+                node,
+                Imu,
+                f"{foot}/{topic}",
+                self._receiver(foot),
+                profile,
+                remedy=remedy,
+                latency_s=config.latency,
+            )
+            for foot in feet
         }
         self.monitor = InputMonitor(node, [*self.inputs.values(), *also], config)
 
@@ -80,8 +98,11 @@ class FootStreams:
             return
         sample = self._read_sample(foot, message, stamp_ns)
         self._stamp_gap.observe(foot, stamp_ns)
-        for pair in self.aligner.push(foot, stamp_ns, sample):
+        self._stamp_checks.observe(foot, header_ns, stamp_ns)
+        for pair in self.aligner.push(foot, stamp_ns, sample, arrival_ns):
             self._take_pair(pair)
+        if self.states.observe():
+            self.on_change()
 
     @property
     def received(self) -> int:
@@ -98,7 +119,13 @@ class FootStreams:
         self.aligner.reset()
 
     def describe(self, status: Status) -> None:
-        """Add inputs, clocks and the gap between the stamps to a status."""
+        """Add inputs, clocks, the state of each foot and what its stamps are worth to a status."""
         self.monitor.describe(status)
         self.stamper.describe(status)
+        self.states.describe(status)
         self._stamp_gap.describe(status)
+        self._stamp_checks.describe(status)
+
+
+def _do_nothing() -> None:
+    """Do nothing, as long as nobody wants to know."""

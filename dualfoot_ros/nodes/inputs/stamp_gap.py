@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 
-from ...core import FEET
+from ...core import FEET, Refusal
 from ...inspection import Finding, FindingKind, Severity
 from ...timing import Aligner
 from ..ros.status import Status
 
 UNPAIRED_S = 2.0  # without a pair while both feet deliver, by the wall clock
 DELIVERS_S = 1.0  # a foot without a sample for longer is silent, which its input reports
+REASONS = (Refusal.NOT_FINITE, Refusal.DUPLICATE, Refusal.OUT_OF_ORDER)
 REMEDY = (
     "set stamping.left and stamping.right to device (stamp, where imu_adapter does it), or "
     "add {offset:.3f} s with stamping.right_offset; for a recording use dualfoot sync"
@@ -26,6 +28,7 @@ class StampGap:
         self._seen_s: dict[str, float] = {}
         self._behind_ns = dict.fromkeys(FEET, 0)  # the most, since the last report
         self._pairs = self._late = 0
+        self._refused: Mapping[str, int] = aligner.counters
         self._unpaired_s: float | None = None  # since when both deliver and no pair is made
 
     def observe(self, foot: str, stamp_ns: int) -> None:
@@ -38,12 +41,15 @@ class StampGap:
     def describe(self, status: Status) -> None:
         """Add to a status how far the stamps are apart, and the samples lost by it."""
         counters = self._aligner.counters
-        paired, late = counters["pairs"] - self._pairs, counters["late"] - self._late
-        self._pairs, self._late = counters["pairs"], counters["late"]
+        pairs = counters["pairs"] - sum(counters[f"{foot}_missing"] for foot in FEET)
+        paired, late = pairs - self._pairs, counters["late"] - self._late
+        self._pairs, self._late = pairs, counters["late"]
+        refused = self._refused_most(counters)
         if len(self._newest_ns) == len(FEET):
             status.values["right less left, newest stamps (s)"] = 1e-9 * self._right_less_left_ns()
-        if self._is_apart(paired):
-            status.note(self._gap_finding())
+        if self._is_unpaired(paired):
+            apart = abs(self._right_less_left_ns()) > self._aligner.config.max_delay_ns
+            status.note(self._gap_finding() if apart else _find_no_pairs(refused))
         elif late > 0:
             text = self._describe_late(late)
             status.note(Finding(FindingKind.LATE_SAMPLES, Severity.WARNING, text))
@@ -52,8 +58,23 @@ class StampGap:
     def _right_less_left_ns(self) -> int:
         return self._newest_ns["right"] - self._newest_ns["left"]
 
-    def _is_apart(self, paired: int) -> bool:
-        """Return whether both feet deliver and make no pair because their stamps differ."""
+    def _refused_most(self, counters: Mapping[str, int]) -> tuple[str, int]:
+        """Return the words of the refusal that has grown most since the last report, by how much.
+
+        The words are empty where nothing was refused.
+        """
+        new = {name: count - self._refused.get(name, 0) for name, count in counters.items()}
+        self._refused = counters
+        found = [
+            (new[f"{foot}_{reason}"], f"{reason.words}, of the {foot} foot")
+            for foot in FEET
+            for reason in REASONS
+        ]
+        most, words = max(found)
+        return (words, most) if most > 0 else ("", 0)
+
+    def _is_unpaired(self, paired: int) -> bool:
+        """Return whether both feet deliver and have made no pair of both for some seconds."""
         now_s = time.monotonic()
         deliver = len(self._seen_s) == len(FEET) and (
             now_s - min(self._seen_s.values()) < DELIVERS_S
@@ -63,8 +84,7 @@ class StampGap:
             return False
         if self._unpaired_s is None:
             self._unpaired_s = now_s
-        apart = abs(self._right_less_left_ns()) > self._aligner.config.max_delay_ns
-        return apart and now_s - self._unpaired_s >= UNPAIRED_S
+        return now_s - self._unpaired_s >= UNPAIRED_S
 
     def _gap_finding(self) -> Finding:
         right_less_left_s = 1e-9 * self._right_less_left_ns()
@@ -84,6 +104,13 @@ class StampGap:
             f"{1e-9 * self._behind_ns[foot]:.3f} s behind those of the {_other(foot)} foot "
             f"where aligner.max_delay is {self._aligner.config.max_delay:g} s; {late} are dropped"
         )
+
+
+def _find_no_pairs(refused: tuple[str, int]) -> Finding:
+    words, count = refused
+    why = f"{count} samples were refused: {words}" if words else "their holes cover each other"
+    text = f"no pairs: both feet deliver and no pair of both came for {UNPAIRED_S:g} s; {why}"
+    return Finding(FindingKind.NO_PAIRS, Severity.ERROR, text, "check the stamps of both feet")
 
 
 def _other(foot: str) -> str:

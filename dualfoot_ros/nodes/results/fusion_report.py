@@ -17,6 +17,7 @@ from . import event_messages
 
 LOGGED = (EventKind.ALIGNED, EventKind.HEADING, EventKind.RESET)
 NO_STANCE_NS = 5_000_000_000
+NOT_SHARED = 0.5  # of the pairs are interpolated; of lost samples that are filled it is less
 NIS_MEMORY = 0.99  # of the running mean, a ZUPT of 3 dimensions
 
 
@@ -145,7 +146,7 @@ class FusionReport:
         if rates.get(Refusal.STANCES_WITHOUT_FIELD, 0.0) > 0:
             text = "stances have no magnetic field: check its stamps and rate"
             status.note(Finding(FindingKind.NO_FIELD, Severity.WARNING, text))
-        if self._external and paired["interpolated"] > 0:
+        if self._external and paired["interpolated"] > NOT_SHARED * paired["pairs"]:
             kind, text = FindingKind.STAMPS_NOT_SHARED, "the streams do not share their stamps"
             status.note(Finding(kind, Severity.WARNING, text, "use sync: internal"))
 

@@ -22,7 +22,11 @@ EVENTS_KEPT = 200
 
 
 class Outputs:
-    """Publishers of the node ``fusion``, and the messages that are filled for every update."""
+    """Publishers of the node ``fusion``, and the messages that are filled for every update.
+
+    ``published`` counts the updates with an estimate, ``messages`` those of odometry that they
+    gave.
+    """
 
     def __init__(
         self, node: Node, frames: FrameConfig, path: PathConfig, gyro_density: float, tf: bool
@@ -43,10 +47,10 @@ class Outputs:
         self._events = node.create_publisher(DiagnosticArray, "~/events", qos.latched(EVENTS_KEPT))
         self._tf = FrameBroadcaster(node) if tf else None
         self._last_ns: int | None = None
-        self.published = 0
+        self.published = self.messages = 0
 
-    def publish(self, update: Update) -> None:
-        """Publish the estimates and events of ``update``."""
+    def publish(self, update: Update, present: tuple[bool, bool] = (True, True)) -> None:
+        """Publish the estimates and events of ``update``, of the feet that are ``present``."""
         if update.announced:
             self._events.publish(event_messages.to_message(update.announced, update.stamp_ns))
             if any(event.kind is EventKind.RESET for event in update.announced):
@@ -55,13 +59,15 @@ class Outputs:
         if person is None:
             return
         variance = self._rate_variance(update.stamp_ns)
-        for foot in FEET:
+        feet = [foot for foot, there in zip(FEET, present, strict=True) if there]
+        for foot in feet:
             self._publish_foot(foot, update, variance)
         fill_pedestrian(self._person, update.stamp_ns, person)
         self._pedestrian.publish(self._person)
         if self._tf is not None:
-            self._tf.publish([self._person, *self._feet.values()])
+            self._tf.publish([self._person, *(self._feet[foot] for foot in feet)])
         self.published += 1
+        self.messages += 1 + len(feet)
 
     def _publish_foot(self, foot: str, update: Update, rate_variance: float) -> None:
         estimate = update.left if foot == "left" else update.right

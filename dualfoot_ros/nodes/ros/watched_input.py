@@ -17,6 +17,11 @@ from ...settings import InputConfig
 from .status import Status
 
 LOOK_EVERY = 0.25  # s
+NEWEST = 10  # a message that waited for a tenth of what is allowed is new
+REMEDY = (
+    "give the process more of the machine: engine compiled, fewer nodes in it, a lower rate of "
+    "the sensors"
+)
 
 
 def silence(who: str, begun: bool, silent_s: float, config: InputConfig) -> Finding:
@@ -40,6 +45,9 @@ class WatchedInput:
     ``arrival_ns`` is when the newest message came from the network, whatever time it then spent
     in the queue; with ``use_sim_time`` it is the simulated time at which it is taken out.
     ``remedy`` is that of the finding where a publisher is there and silent.
+
+    A message that has waited in the queue for more than ``latency_s`` (0: any time) is dropped,
+    and so are those behind it down to the newest; ``dropped`` counts them.
     """
 
     def __init__(
@@ -49,10 +57,12 @@ class WatchedInput:
         topic: str,
         callback: Callable[[Any], None],
         profile: QoSProfile,
+        *,
         remedy: str = "",
+        latency_s: float = 0.0,
     ) -> None:
-        self.received = 0
-        self.lost = 0
+        self.received = self.lost = self.dropped = 0
+        self._latency_ns, self._dropping = round(latency_s * 1e9), False
         self._number: int | None = None
         self.arrival_ns = 0
         self.last_s = self._free_s = time.monotonic()
@@ -78,7 +88,20 @@ class WatchedInput:
             if self._number is not None and number > self._number:
                 self.lost += number - self._number - 1
             self._number = number
-        self._callback(message)
+        if self._is_too_old(info):
+            self.dropped += 1
+        else:
+            self._callback(message)
+
+    def _is_too_old(self, info: dict[str, Any]) -> bool:
+        """Return whether a message waited too long, or stands behind one that did."""
+        received_ns = int(info.get("received_timestamp") or 0)
+        if not self._latency_ns or received_ns <= 0:
+            return False
+        waited_ns = time.time_ns() - received_ns
+        limit_ns = self._latency_ns // NEWEST if self._dropping else self._latency_ns
+        self._dropping = waited_ns > limit_ns
+        return self._dropping
 
     def _read_arrival(self, info: dict[str, Any]) -> int:
         received_ns = int(info.get("received_timestamp") or 0)
@@ -153,6 +176,7 @@ class InputMonitor:
         self._node, self._inputs, self._config = node, inputs, config
         self._logged: dict[str, Key | None] = {}
         self._lost: dict[str, int] = {}
+        self._dropped: dict[str, int] = {}
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(LOOK_EVERY, self.look, clock=steady)
 
@@ -170,6 +194,21 @@ class InputMonitor:
                 kind = FindingKind.LOST_MESSAGES
                 status.note(Finding(kind, Severity.WARNING, text, about=topic))
             self._lost[topic] = watched.lost
+            if isinstance(watched, WatchedInput):
+                self._describe_dropped(watched, status)
+
+    def _describe_dropped(self, watched: WatchedInput, status: Status) -> None:
+        """Add how many samples were dropped as the process is too slow for them."""
+        status.values[f"dropped {watched.topic}"] = watched.dropped
+        new = watched.dropped - self._dropped.get(watched.topic, 0)
+        self._dropped[watched.topic] = watched.dropped
+        if new > 0:
+            text = (
+                f"{new} samples on '{watched.topic}' waited for this process for more than "
+                f"{self._config.latency:g} s and were dropped down to the newest"
+            )
+            kind = FindingKind.FALLING_BEHIND
+            status.note(Finding(kind, Severity.WARNING, text, REMEDY, watched.topic))
 
     def look(self) -> None:
         """Log the inputs that have fallen silent, or deliver again, since the last look."""

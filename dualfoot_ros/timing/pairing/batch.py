@@ -11,8 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import FEET, BoolArray, ImuSeries, IntArray, TimingError
+from .grid import anchor
 from .grid_lookup import GridLookup
 from .pairing_config import AlignerConfig
+from .sample_spacing import filled
 from .stream_gate import Clean, clean
 
 
@@ -21,6 +23,7 @@ class AlignReport:
     """What became of the samples; ``counters`` are those of the streaming aligner.
 
     ``overlap_s`` is the time during which both feet were on; not positive when they never were.
+    ``interpolated`` counts the pairs in which a foot was, and ``left_missing`` those without it.
     """
 
     counters: Mapping[str, int]
@@ -45,8 +48,9 @@ def align_with_report(
     """Return both series on one grid with equal stamps, and what became of their samples.
 
     Values are interpolated (or held, ``config.between``), never across more than
-    ``config.max_gap``.  Samples with stamps that do not increase or values that are not finite are
-    left out and counted.  Feet that never were on at the same time give empty series.
+    ``config.max_gap``.  Where a foot has a longer hole, has not begun or has ended, its rows are
+    NaN and the stamps are those of the other foot.  Samples with stamps that do not increase or
+    values that are not finite are left out and counted.
 
     Raises
     ------
@@ -58,10 +62,11 @@ def align_with_report(
     feet = {foot: _increasing(foot, found[foot]) for foot in FEET}
     grid = _grid(feet, config)
     lookups = [GridLookup.of(feet[foot].stamp_ns, grid, config) for foot in FEET]
-    good = lookups[0].found & lookups[1].found
-    taken = [p.take(feet[f], grid, good) for f, p in zip(FEET, lookups, strict=True)]
+    kept = (lookups[0].found | lookups[1].found) & ~_outside(feet, grid, lookups, config)
+    taken = [p.take(feet[f], grid, kept) for f, p in zip(FEET, lookups, strict=True)]
     counters = {f"{f}_{k}": n for f in FEET for k, n in found[f].counters.items()}
-    counters |= _outcomes(lookups, good)
+    counters |= dict.fromkeys((f"{foot}_clock_set" for foot in FEET), 0)
+    counters |= _outcomes(lookups, kept)
     return taken[0], taken[1], AlignReport(counters, _overlap_s(feet))
 
 
@@ -75,15 +80,20 @@ def _increasing(foot: str, found: Clean) -> ImuSeries:
 
 
 def _grid(feet: Mapping[str, ImuSeries], config: AlignerConfig) -> IntArray:
-    if not all(len(series) for series in feet.values()):
-        return np.empty(0, dtype=np.int64)
+    """Return the stamps at which pairs are wanted, before those that no foot has are left out."""
+    stamps = {foot: series.stamp_ns for foot, series in feet.items()}
     if config.rate == 0:
-        return feet[config.reference].stamp_ns
-    start = max(int(series.stamp_ns[0]) for series in feet.values())
-    numbers = _numbers(feet["left"].stamp_ns, start, config)
+        own = stamps.pop(config.reference)
+        other = next(iter(stamps.values()))
+        alone = other[~GridLookup.of(own, other, config).found]
+        return np.sort(np.concatenate([own, filled(own, config.max_gap_ns), alone]))
+    on = [each for each in stamps.values() if len(each)]
+    if not on:
+        return np.empty(0, dtype=np.int64)
+    start = anchor([int(each[0]) for each in on], config)
+    numbers = np.unique(np.concatenate([_numbers(each, start, config) for each in on]))
     grid = start + np.rint(numbers * 1e9 / config.rate).astype(np.int64)
-    end = min(int(series.stamp_ns[-1]) for series in feet.values())
-    common: IntArray = grid[grid <= end + config.tolerance_ns]
+    common: IntArray = grid[grid <= max(int(each[-1]) for each in on) + config.tolerance_ns]
     return common
 
 
@@ -95,18 +105,41 @@ def _numbers(stamp_ns: IntArray, start: int, config: AlignerConfig) -> IntArray:
     for run in runs:
         first, last = ((int(t) - start) * config.rate * 1e-9 for t in (run[0], run[-1]))
         ranges.append(np.arange(max(0, int(first) - 2), int(last) + 3))
-    return np.unique(np.concatenate(ranges)) if ranges else np.empty(0, dtype=np.int64)
+    return np.concatenate(ranges) if ranges else np.empty(0, dtype=np.int64)
 
 
-def _outcomes(lookups: list[GridLookup], good: BoolArray) -> dict[str, int]:
-    outside = (lookups[0].outside | lookups[1].outside) & ~good
-    interpolated = (lookups[0].between | lookups[1].between) & good
+def _outside(
+    feet: Mapping[str, ImuSeries],
+    grid: IntArray,
+    lookups: list[GridLookup],
+    config: AlignerConfig,
+) -> BoolArray:
+    """Return (N,) where one foot begins or ends a moment later or earlier than the other."""
+    dropped = np.zeros(len(grid), dtype=bool)
+    if not all(len(series) for series in feet.values()):
+        return dropped
+    for end, side in ((0, np.less), (-1, np.greater)):
+        left, right = (int(feet[foot].stamp_ns[end]) for foot in FEET)
+        if abs(left - right) <= config.max_gap_ns:
+            for foot, lookup in zip(FEET, lookups, strict=True):
+                dropped |= lookup.outside & side(grid, feet[foot].stamp_ns[end])
+    return dropped
+
+
+def _outcomes(lookups: list[GridLookup], kept: BoolArray) -> dict[str, int]:
+    found = lookups[0].found | lookups[1].found
+    interpolated = (lookups[0].between | lookups[1].between) & kept
+    missing = {
+        f"{foot}_missing": int((kept & ~lookup.found).sum())
+        for foot, lookup in zip(FEET, lookups, strict=True)
+    }
     return {
-        "pairs": int(good.sum()),
+        "pairs": int(kept.sum()),
+        **missing,
         "interpolated": int(interpolated.sum()),
-        "in_gap": int((~good & ~outside).sum()),
+        "in_gap": int((~found).sum()),
         "late": 0,
-        "outside": int(outside.sum()),
+        "outside": int((found & ~kept).sum()),
         "restarts": 0,
     }
 

@@ -37,6 +37,8 @@ class GridLookup:
     @classmethod
     def of(cls, stamps: IntArray, grid: IntArray, config: AlignerConfig) -> GridLookup:
         """Place ``grid`` among increasing ``stamps``."""
+        if not len(stamps):
+            return cls._nowhere(len(grid))
         before = np.searchsorted(stamps, grid, side="right") - 1
         inside = (before >= 0) & (before + 1 < len(stamps))
         low = np.maximum(before, 0)
@@ -52,27 +54,38 @@ class GridLookup:
         taken = np.where(on_high & ~on_low, high, low)
         return cls(taken, high, weight, width_s, exact, between, ~inside & ~exact)
 
+    @classmethod
+    def _nowhere(cls, count: int) -> GridLookup:
+        """Return the lookup among no samples at all."""
+        none, zeros = np.zeros(count, dtype=bool), np.zeros(count, dtype=np.int64)
+        return cls(zeros, zeros, np.zeros(count), np.zeros(count), none, none, ~none)
+
     @property
     def found(self) -> BoolArray:
         """Where the foot has a value."""
         return self.exact | self.between
 
-    def take(self, series: ImuSeries, grid: IntArray, good: BoolArray) -> ImuSeries:
-        """Return the series at the ``good`` stamps of the grid."""
-        field, exact = series.magnetic_field, self.exact[good][:, None]
-        values = np.hstack([series.specific_force, series.angular_rate])
-        before, after = values[self.before[good]], values[self.after[good]]
+    def take(self, series: ImuSeries, grid: IntArray, kept: BoolArray) -> ImuSeries:
+        """Return the series at the ``kept`` stamps of the grid, NaN where there is no value."""
+        field = series.magnetic_field
+        values = np.full((int(kept.sum()), 6), np.nan)
+        there, good = self.found[kept], kept & self.found
+        measured = np.hstack([series.specific_force, series.angular_rate])
+        before, after = measured[self.before[good]], measured[self.after[good]]
         inside = between_rows(before, after, self.weight[good], self.width_s[good])
-        taken = np.where(exact, before, inside)
+        values[there] = np.where(self.exact[good][:, None], before, inside)
         return ImuSeries(
-            grid[good],
-            taken[:, :3],
-            taken[:, 3:],
-            None if field is None else self._values(field, good),
+            grid[kept],
+            values[:, :3],
+            values[:, 3:],
+            None if field is None else self._values(field, kept),
             series.increments,
         )
 
-    def _values(self, column: FloatArray, good: BoolArray) -> FloatArray:
+    def _values(self, column: FloatArray, kept: BoolArray) -> FloatArray:
+        values = np.full((int(kept.sum()), 3), np.nan)
+        there, good = self.found[kept], kept & self.found
         before, after = column[self.before[good]], column[self.after[good]]
         line = before + (after - before) * self.weight[good][:, None]
-        return np.where(self.exact[good][:, None], before, line)
+        values[there] = np.where(self.exact[good][:, None], before, line)
+        return values

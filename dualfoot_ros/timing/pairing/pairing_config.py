@@ -13,7 +13,8 @@ class AlignerConfig(Parameters):
 
     rate: float = parameter(
         0.0,
-        "rate of the common grid; 0: the grid is the stamps of the reference foot",
+        "rate of the common grid; 0: the stamps of the reference foot, and in its holes those of "
+        "the other",
         unit="Hz",
         minimum=0.0,
         maximum=2000.0,
@@ -30,17 +31,17 @@ class AlignerConfig(Parameters):
         choices=("interpolate", "hold"),
     )
     max_gap: float = parameter(
-        0.05,
-        "longest interval between two samples that is interpolated or held across; in a longer "
-        "one pairs are dropped and counted",
+        0.1,
+        "longest interval between two samples of a foot that is filled; in a longer one the pairs "
+        "have the other foot only",
         unit="s",
         minimum=0.001,
         maximum=1.0,
     )
     max_delay: float = parameter(
-        1.0,
-        "longest time a pair waits for a foot that is late, with what comes later dropped; pairs "
-        "of feet that are in time never wait (not shorter than max_gap)",
+        0.5,
+        "longest time a pair waits for a foot that is late; then the other foot goes on alone "
+        "until that one is back in time (not shorter than max_gap)",
         unit="s",
         minimum=0.001,
         maximum=10.0,

@@ -36,6 +36,11 @@ class Gate:
         self._backward = 0
 
     @property
+    def backward(self) -> int:
+        """Samples in a row that are older than the newest, each newer than the one before it."""
+        return self._backward
+
+    @property
     def restarted(self) -> bool:
         """Whether the stream went on at an older time: too many samples refused in a row.
 

@@ -1,8 +1,9 @@
 """Two feet whose stamps are far apart: which one, by how much and what to do."""
 
+import numpy as np
 import pytest
 
-from dualfoot_ros.inspection import FindingKind
+from dualfoot_ros.inspection import FindingKind, Severity
 from dualfoot_ros.nodes.inputs import stamp_gap as module
 from dualfoot_ros.nodes.inputs.stamp_gap import StampGap
 from dualfoot_ros.nodes.ros.status import ERROR, OK, WARN, Status
@@ -21,15 +22,23 @@ class Bench:
         self.stamp_ns = dict.fromkeys(FEET, 10**12)
         monkeypatch.setattr(module.time, "monotonic", lambda: self.now_s)
 
-    def run(self, seconds, feet=FEET):
-        """Let the feet deliver for that time; return the last report of one a second."""
+    def pairs_of_both(self):
+        counters = self.aligner.counters
+        return counters["pairs"] - sum(counters[f"{foot}_missing"] for foot in FEET)
+
+    def run(self, seconds, feet=FEET, broken=""):
+        """Let the feet deliver for that time; return the last report of one a second.
+
+        The samples of the foot that is ``broken`` are not finite.
+        """
         status = Status()
         for k in range(round(seconds * 1e9 / STEP_NS)):
             self.now_s += 1e-9 * STEP_NS
             for foot in feet:
                 self.stamp_ns[foot] += STEP_NS
                 self.gap.observe(foot, self.stamp_ns[foot])
-                self.aligner.push(foot, self.stamp_ns[foot], STANDING)
+                values = STANDING * (np.nan if foot == broken else 1.0)
+                self.aligner.push(foot, self.stamp_ns[foot], values)
             if k % 100 == 99:
                 status = Status()
                 self.gap.describe(status)
@@ -45,7 +54,7 @@ def feet(monkeypatch):
 def test_feet_that_never_pair_are_an_error_with_foot_difference_and_remedy(feet, behind):
     feet.stamp_ns[behind] -= 162_500_000_000
     status = feet.run(5.0)
-    assert feet.aligner.counters["pairs"] == 0 and status.level == ERROR
+    assert feet.pairs_of_both() == 0 and status.level == ERROR
     assert f"the {behind} foot are 162.5 s behind" in status.message
     sign = 1.0 if behind == "right" else -1.0
     assert f"add {sign * 162.5:.3f} s with stamping.right_offset" in status.message
@@ -62,7 +71,7 @@ def test_the_offset_that_is_named_brings_the_feet_together(feet):
     offset_s = float(feet.run(5.0).message.split("add ")[1].split(" s ")[0])
     feet.aligner.reset()
     feet.stamp_ns["right"] += round(1e9 * offset_s)
-    assert feet.run(5.0).level == OK and feet.aligner.counters["pairs"] > 300
+    assert feet.run(5.0).level == OK and feet.pairs_of_both() > 300
 
 
 def test_feet_in_time_raise_no_finding(feet):
@@ -80,7 +89,15 @@ def test_a_foot_that_is_now_and_then_too_late_is_a_warning_with_its_name(feet):
     feet.run(1.2, feet=("left",))
     status = feet.run(1.0)
     assert status.level == WARN and "samples of the right foot come too late" in status.message
-    assert "aligner.max_delay is 1 s" in status.message
+    assert "aligner.max_delay is 0.5 s" in status.message
+
+
+def test_feet_that_deliver_and_never_pair_for_another_reason_are_said_with_it(feet):
+    feet.run(1.0)
+    status = feet.run(4.0, broken="right")
+    (finding,) = status.of_kind(FindingKind.NO_PAIRS)
+    assert finding.severity is Severity.ERROR
+    assert "values that are not finite, of the right foot" in finding.text
 
 
 def test_fusion_says_it_in_diagnostics_and_log(bench, clock, capfd):

@@ -1,3 +1,5 @@
+import time
+
 import pytest
 import rclpy
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -154,3 +156,30 @@ def test_samples_that_a_full_queue_drops_are_counted(bench):
     publisher.publish(imu(200))
     bench.until(lambda: each.received == 7)
     assert each.lost == 95
+
+
+def test_what_has_waited_too_long_is_dropped_down_to_the_newest_and_said(bench):
+    taken, node = [], bench.plain("listener")
+    config = InputConfig(latency=60.0)
+    each = WatchedInput(node, Imu, "imu", taken.append, qos.sensor(10), latency_s=60_000.0)
+    watch = InputMonitor(node, [each], config)
+    for waited_s in (50_000, 61_000, 30_000, 7_000, 5_000, 50_000):
+        arrived_ns = time.time_ns() - waited_s * 10**9
+        each._receive(imu(waited_s), {"received_timestamp": arrived_ns})
+    assert [message.header.stamp.nanosec for message in taken] == [50_000, 5_000, 50_000]
+    assert (each.received, each.dropped) == (6, 3)
+    status = Status()
+    watch.describe(status)
+    (finding,) = status.of_kind(FindingKind.FALLING_BEHIND)
+    assert finding.about == "/imu" and finding.text.startswith("3 samples on '/imu' waited")
+    assert status.values["dropped /imu"] == 3
+    status = Status()
+    watch.describe(status)
+    assert not list(status.of_kind(FindingKind.FALLING_BEHIND))
+
+
+def test_without_a_time_of_arrival_nothing_is_dropped(bench):
+    taken, node = [], bench.plain("listener")
+    each = WatchedInput(node, Imu, "imu", taken.append, qos.sensor(10), latency_s=0.001)
+    each._receive(imu(0), {})
+    assert len(taken) == 1 and each.dropped == 0

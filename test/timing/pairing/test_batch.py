@@ -20,6 +20,11 @@ def series(stamps, force=None, rate=None):
     )
 
 
+def there(foot):
+    """Return the samples of a foot without the rows in which it is missing."""
+    return foot[~np.isnan(foot.specific_force).any(axis=1)]
+
+
 intervals = st.lists(st.integers(2 * MS, 40 * MS), min_size=2, max_size=60)
 starts = st.integers(0, 60 * MS)
 rates = st.sampled_from([0.0, 37.0, 60.0, 100.0, 200.0])
@@ -38,7 +43,7 @@ def test_both_feet_have_equal_increasing_stamps(a, b, start, rate):
 def test_turns_about_one_axis_linear_in_time_come_out_exact(a, b, start, rate, reference):
     config = AlignerConfig(rate=rate, tolerance=0.0, reference=reference)
     aligned = align(series(np.cumsum(a)), series(start + np.cumsum(b)), config)
-    for foot in aligned:
+    for foot in map(there, aligned):
         true = series(foot.stamp_ns)
         assert np.allclose(foot.specific_force, true.specific_force, rtol=0, atol=1e-9)
         assert np.allclose(foot.angular_rate, true.angular_rate, rtol=0, atol=1e-9)
@@ -49,24 +54,68 @@ def test_turns_about_one_axis_linear_in_time_come_out_exact(a, b, start, rate, r
     st.lists(st.integers(2 * MS, 200 * MS), min_size=2, max_size=60),
     rates,
 )
-def test_no_pair_is_invented_inside_a_gap(a, b, rate):
+def test_no_sample_is_invented_inside_a_gap(a, b, rate):
     left, right = series(np.cumsum(a)), series(np.cumsum(b))
     config = AlignerConfig(rate=rate, max_gap=0.05)
-    grid = align(left, right, config)[0].stamp_ns
-    for foot in (left, right):
+    for foot, aligned in zip((left, right), align(left, right, config), strict=True):
+        grid = there(aligned).stamp_ns
         holes = np.flatnonzero(np.diff(foot.stamp_ns) > config.max_gap_ns)
         for low, high in zip(foot.stamp_ns[holes], foot.stamp_ns[holes + 1], strict=True):
             inside = (grid > low + config.tolerance_ns) & (grid < high - config.tolerance_ns)
             assert not inside.any()
 
 
+@given(intervals, intervals, st.integers(0, 10**9), st.sampled_from(["left", "right"]))
+def test_every_sample_of_the_reference_is_there_and_one_foot_in_every_pair(a, b, start, reference):
+    feet = {"left": series(np.cumsum(a)), "right": series(start + np.cumsum(b))}
+    config = AlignerConfig(reference=reference, max_gap=0.01, max_delay=0.02, tolerance=0.0)
+    left, right, report = align_with_report(feet["left"], feet["right"], config)
+    missing = [np.isnan(foot.specific_force).all(axis=1) for foot in (left, right)]
+    assert not (missing[0] & missing[1]).any()
+    own = feet[reference].stamp_ns
+    assert np.isin(own, left.stamp_ns).sum() >= len(own) - report.counters["outside"]
+
+
 @given(intervals, rates)
-def test_nothing_lies_outside_the_time_both_feet_were_on(a, rate):
+def test_a_foot_that_begins_or_ends_a_moment_later_shortens_the_other(a, rate):
     left = series(np.cumsum(a))
-    right = left[len(left) // 3 : -1] if len(left) > 4 else left
+    right = left[1:-1] if len(left) > 4 else left
     grid = align(left, right, AlignerConfig(rate=rate))[0].stamp_ns
     assert (grid >= right.stamp_ns[0]).all()
     assert (grid <= right.stamp_ns[-1] + 1000).all()
+
+
+@pytest.mark.parametrize("reference", ["left", "right"])
+@pytest.mark.parametrize("rate", [0.0, 100.0])
+def test_a_foot_that_ends_early_leaves_the_other_one_on(reference, rate):
+    whole = series(np.arange(3000) * 10 * MS)
+    config = AlignerConfig(reference=reference, rate=rate)
+    left, right, report = align_with_report(whole, whole[:1500], config)
+    assert len(there(left)) == 3000
+    assert len(there(right)) == 1500
+    assert report.counters["right_missing"] == 1500
+
+
+@pytest.mark.parametrize("reference", ["left", "right"])
+def test_lost_samples_of_one_foot_are_filled_and_those_of_the_other_kept(reference):
+    rng = np.random.default_rng(3)
+    stamps = np.arange(2000) * 10 * MS
+    kept = rng.random(2000) > 0.05
+    kept[:40] = kept[-1] = True
+    left, _, report = align_with_report(
+        series(stamps[kept]), series(stamps + 3 * MS), AlignerConfig(reference=reference)
+    )
+    own = stamps if reference == "left" else stamps + 3 * MS
+    assert np.isin(left.stamp_ns, own).all()
+    assert len(left) >= 1999
+    assert report.counters["left_missing"] == report.counters["right_missing"] == 0
+    assert np.allclose(left.specific_force, series(left.stamp_ns).specific_force, atol=1e-9)
+
+
+def test_bunched_stamps_are_not_taken_for_holes():
+    stamps = (np.arange(100)[:, None] * 100 * MS + np.arange(10) * MS).ravel()
+    left, _ = align(series(stamps), series(stamps))
+    assert len(left) == 1000
 
 
 def test_feet_that_share_their_stamps_pass_through_unchanged():
@@ -123,19 +172,21 @@ def test_duplicates_disorder_and_values_that_are_not_finite_are_counted_and_left
 @given(intervals, intervals, starts)
 def test_held_values_are_those_of_the_last_sample_before(a, b, start):
     left, right = series(np.cumsum(a)), series(start + np.cumsum(b))
-    held = align(left, right, AlignerConfig(between="hold", tolerance=0.0))[1]
+    held = there(align(left, right, AlignerConfig(between="hold", tolerance=0.0))[1])
     last = np.searchsorted(right.stamp_ns, held.stamp_ns, side="right") - 1
     assert np.array_equal(held.specific_force, right.specific_force[last])
     assert np.array_equal(held.angular_rate, right.angular_rate[last])
 
 
-def test_a_gap_is_counted_and_its_stamps_are_dropped():
+def test_in_a_gap_of_one_foot_the_pairs_are_those_of_the_other_and_counted():
     left = series(np.arange(100) * 10 * MS)
     right = left[np.r_[0:40, 60:100]]
-    aligned, _, report = align_with_report(left, right)
+    aligned, other, report = align_with_report(left, right)
     assert report.counters["right_gap"] == 1
-    assert report.counters["in_gap"] == 20
-    assert len(aligned) == 80
+    assert report.counters["right_missing"] == 20
+    assert np.array_equal(aligned.specific_force, left.specific_force)
+    assert np.isnan(other.angular_rate[40:60]).all()
+    assert len(there(other)) == 80
 
 
 def test_a_foot_that_starts_again_in_the_past_is_refused_with_a_sentence():
@@ -144,18 +195,26 @@ def test_a_foot_that_starts_again_in_the_past_is_refused_with_a_sentence():
         align(series(np.arange(300) * 10 * MS), series(stamps))
 
 
-def test_feet_never_on_at_the_same_time_give_empty_series_and_a_negative_overlap():
+def test_feet_never_on_at_the_same_time_have_no_pair_in_common_and_a_negative_overlap():
     left, right, report = align_with_report(
         series(np.arange(50) * 10 * MS), series(np.arange(50) * 10 * MS + 10**12)
     )
-    assert len(left) == len(right) == 0
+    assert len(there(left)) == len(there(right)) == 50
+    assert report.counters["left_missing"] + report.counters["right_missing"] == 100
     assert report.overlap_s < -990
-    assert not report.shared_stamps
 
 
 @pytest.mark.parametrize("rate", [0.0, 100.0])
-def test_an_empty_foot_gives_empty_series(rate):
-    left, right, _ = align_with_report(series([]), series([1, 2 * MS]), AlignerConfig(rate=rate))
+def test_with_an_empty_foot_the_other_is_there_alone(rate):
+    whole = series(np.arange(20) * 10 * MS)
+    left, right, _ = align_with_report(series([]), whole, AlignerConfig(rate=rate))
+    assert np.array_equal(right.specific_force, whole.specific_force)
+    assert np.isnan(left.specific_force).all()
+
+
+@pytest.mark.parametrize("rate", [0.0, 100.0])
+def test_two_empty_feet_give_empty_series(rate):
+    left, right, _ = align_with_report(series([]), series([]), AlignerConfig(rate=rate))
     assert len(left) == len(right) == 0
 
 

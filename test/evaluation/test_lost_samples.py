@@ -1,0 +1,27 @@
+"""Samples that are lost at random cost a track little."""
+
+import numpy as np
+
+from dualfoot_ros.evaluation import RunOptions, run
+from dualfoot_ros.recording import Recording
+from dualfoot_ros.simulation import simulate
+
+STAND = 800  # samples at the start, 8 s
+
+
+def error_m(walk, lost, seed):
+    feet = []
+    for k, series in enumerate((walk.left, walk.right)):
+        keep = np.random.default_rng([seed, k]).random(len(series)) >= lost
+        keep[:STAND] = True
+        feet.append(series[keep])
+    recording = Recording(*feet, walk.left_truth, walk.right_truth)
+    result = run(recording, options=RunOptions(check_feet=False))
+    return result.truth_report.midpoint.rmse_m
+
+
+def test_five_percent_of_lost_samples_make_the_error_at_most_half_as_large_again():
+    walks = [simulate(seed=seed) for seed in range(8)]
+    errors = [[error_m(walk, lost, k) for lost in (0.0, 0.05)] for k, walk in enumerate(walks)]
+    whole, lossy = np.median(errors, axis=0)
+    assert lossy <= 1.5 * whole

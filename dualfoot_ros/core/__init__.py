@@ -17,6 +17,14 @@ from .errors import (
     TimingError,
 )
 from .parameters import Parameters, ParameterSpec, check, parameter
+from .person import (
+    PersonEstimate,
+    PersonTracker,
+    SmoothedPerson,
+    Smoother,
+    Trust,
+    TrustTracker,
+)
 from .refusals import Refusal, refusal_of
 from .results.events import FEET, Event, EventKind
 from .results.passings import (
@@ -103,6 +111,8 @@ __all__ = [
     "Parameters",
     "Passing",
     "PedestrianEstimate",
+    "PersonEstimate",
+    "PersonTracker",
     "PoseSeries",
     "PressureSeries",
     "Reason",
@@ -110,6 +120,8 @@ __all__ = [
     "Refusal",
     "SeriesError",
     "SimulationError",
+    "SmoothedPerson",
+    "Smoother",
     "SourceError",
     "StanceEpochs",
     "StancePassing",
@@ -117,6 +129,8 @@ __all__ = [
     "TimingError",
     "TrackerConfig",
     "Trajectory",
+    "Trust",
+    "TrustTracker",
     "Update",
     "Vector",
     "YawTurn",

@@ -86,6 +86,8 @@ class Session:
         arm = self._method.lever_arm
         if arm is not None:
             self._estimate.place(1, self._second_sensor(arm))
+        self.headings.levelled()
+        self.facing = self.headings.facing()
         self._watch()
 
     def _second_sensor(self, arm: FloatArray) -> FloatArray:
@@ -200,6 +202,7 @@ class Session:
         found = [Event(EventKind.STANCE_START, stamp, FEET[foot], now)]
         walking = self.phase == "walking"
         turned = self.headings.stance(self._engine, foot, now, walking)
+        self.facing = self.headings.facing()
         if turned and self.headings.known:
             turned += self._join_pair(now)
             self._watch()
@@ -286,6 +289,7 @@ class Session:
             found: Found = []
         else:
             found = self.headings.set_pose(self._engine, position, yaw, stamp)
+            self.facing = self.headings.facing()
             up_m, turned = found[0].turn.shift[2], found[0].turn.yaw
         for method in (*self._aids, self._method):
             method.moved(up_m, turned)

@@ -241,7 +241,7 @@ class DualFootTracker:
             row=row,
             events=(*before, *found) if found else before,
             blocks=session.space.blocks(),
-            headings=session.headings.feet,
+            facing=session.facing,
         )
 
     def _apply_pose(self, session: Session, stamp: int) -> list[Event]:

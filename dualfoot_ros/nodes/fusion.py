@@ -11,7 +11,7 @@ from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
 from ..core import FEET, DualFootTracker, FloatArray, ImuPair, TrackerConfig, all_specs
-from ..settings import FrameConfig, FusionConfig, InputConfig, PathConfig, node_specs
+from ..settings import FrameConfig, FusionConfig, InputConfig, PathConfig, PersonConfig, node_specs
 from ..timing import StampConfig
 from .inputs.calibrations import load_for_feet
 from .inputs.field_topics import FieldInput, FieldInputs
@@ -61,7 +61,9 @@ class FusionNode(Node):
         config = TrackerConfig.from_mapping(tracker)
         self.tracker = DualFootTracker(config, engine=own.engine)
         path = group(PathConfig, values, "path.")
-        self.outputs = Outputs(self, frames, path, config.noise.gyro, own.publish_tf)
+        person = group(PersonConfig, values, "person.")
+        density = config.noise.gyro
+        self.outputs = Outputs(self, frames, path, person, density, tf=own.publish_tf)
         self._calibration = load_for_feet(own.calibration)
         warn = self.get_logger().warning
         self._unit_checks = {foot: UnitCheck(warn, foot) for foot in FEET}
@@ -70,7 +72,7 @@ class FusionNode(Node):
         self.report = FusionReport(
             self.tracker,
             self.streams.aligner,
-            [self.streams, *self._unit_checks.values()],
+            [self.streams, self.outputs.person.trust, *self._unit_checks.values()],
             self.get_clock(),
             self.get_logger(),
             external=own.sync == "external",

@@ -57,6 +57,29 @@ class PathConfig(Parameters):
 
 
 @dataclass(frozen=True)
+class PersonConfig(Parameters):
+    """What fusion publishes of the person between the feet."""
+
+    window: float = parameter(
+        1.0,
+        "length of the mean of odometry/smoothed, which lags by half of it; about a stride",
+        unit="s",
+        minimum=0.2,
+        maximum=5.0,
+    )
+    smoothed_rate: float = parameter(
+        50.0, "most messages a second of odometry/smoothed", unit="Hz", minimum=1.0, maximum=1000.0
+    )
+    trust_limit: float = parameter(
+        3.0,
+        "95 % radius of the position up to which it is trusted",
+        unit="m",
+        minimum=0.01,
+        maximum=1.0e4,
+    )
+
+
+@dataclass(frozen=True)
 class FusionConfig(Parameters):
     """Parameters of the node ``fusion`` itself."""
 
@@ -181,6 +204,7 @@ GROUPS: dict[str, type[Parameters]] = {
     "input": InputConfig,
     "frames": FrameConfig,
     "path": PathConfig,
+    "person": PersonConfig,
     "reports": ReportConfig,
     "mounting": MountingConfig,
     "units": UnitConfig,
@@ -193,7 +217,7 @@ GROUPS: dict[str, type[Parameters]] = {
 NODES: dict[str, tuple[type[Parameters], tuple[str, ...]]] = {
     "fusion": (
         FusionConfig,
-        ("aligner", "stamping", "clock", "input", "frames", "path", "reports"),
+        ("aligner", "stamping", "clock", "input", "frames", "path", "person", "reports"),
     ),
     "imu_adapter": (
         AdapterConfig,

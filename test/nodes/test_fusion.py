@@ -180,14 +180,16 @@ def test_the_twist_is_the_change_of_the_pose_in_the_child_frame(bench, pairs):
     assert np.median(np.linalg.norm(change - velocity, axis=1)[swings]) < 0.1
 
 
-def test_the_person_is_midway_between_the_feet(bench, pairs):
+def test_the_person_is_midway_between_the_feet_on_the_floor(bench, pairs):
     walker = Walker(bench)
     walker.walk(*pairs)
     got = walker.published()
     left, right, person = (
         np.array([pose_of(m.pose.pose)[0] for m in got[n]]) for n in ("left", "right", "person")
     )
-    np.testing.assert_allclose(person, 0.5 * (left + right), atol=1e-12)
+    np.testing.assert_allclose(person[:, :2], 0.5 * (left + right)[:, :2], atol=1e-12)
+    assert person[0, 2] == pytest.approx(-TrackerConfig().zupt.lever_arm, abs=0.005)
+    assert np.mean(person[:, 2] < np.minimum(left, right)[:, 2]) > 0.99
     assert all(abs(m.pose.pose.orientation.x) < 1e-12 for m in got["person"])
 
 

@@ -7,14 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..kernel import joint_covariance
 from ..kernel import layout as lay
 from ..rotation import mean_angle, quaternion_yaw
 from ..samples.series import FloatArray
 from .events import Event
+from .facing import NO_FACING, UNKNOWN_VARIANCE, Facing
 from .rows import matrices, zupt_event
 
 POSE_SIGNS = np.repeat([1.0, -1.0], 3)  # position error, rotation error = -phi
+MEAN_ROWS = np.concatenate([np.arange(3) + start for start in (lay.E_POS, lay.E_ATT, lay.E_VEL)])
+MEAN_SIGNS = np.outer(np.repeat([1.0, -1.0, 1.0], 3), np.repeat([1.0, -1.0, 1.0], 3))
 
 
 @dataclass(frozen=True)
@@ -67,8 +69,9 @@ class FootEstimate:
 class PedestrianEstimate:
     """The person between the feet.
 
-    ``heading`` is the direction the person faces, rad: the mean of the feet's headings as last
-    seen in stance, against what they were on the first strides.
+    ``position`` is midway between the sensors.  ``heading`` is the direction the person faces,
+    rad: the mean of the feet's headings as last seen in stance, against what they were on the
+    first strides.  Until those have been made nothing is known of it, and its variance says so.
     """
 
     position: FloatArray
@@ -87,7 +90,7 @@ class Update:
     """
 
     __slots__ = (
-        "_blocks", "_headings", "_noted", "earlier", "phase", "refused", "row", "stamp_ns",
+        "_blocks", "_noted", "earlier", "facing", "phase", "refused", "row", "stamp_ns",
     )  # fmt: skip
 
     def __init__(
@@ -99,11 +102,15 @@ class Update:
         row: FloatArray | None = None,
         events: tuple[Event, ...] = (),
         blocks: FloatArray | None = None,
-        headings: tuple[float, float] = (0.0, 0.0),
+        facing: Facing = NO_FACING,
     ) -> None:
-        """Keep what was computed; ``blocks`` is the covariance as `Workspace.blocks` gives it."""
+        """Keep what was computed.
+
+        ``blocks`` is the covariance as `Workspace.blocks` gives it, ``facing`` what the headings
+        of the feet follow from.
+        """
         self.stamp_ns, self.phase, self.refused, self.row = stamp_ns, phase, refused, row
-        self._noted, self._blocks, self._headings = events, blocks, headings
+        self._noted, self._blocks, self.facing = events, blocks, facing
         self.earlier: tuple[Update, ...] = ()
 
     def after(self, earlier: Sequence[Update]) -> Update:
@@ -141,26 +148,42 @@ class Update:
         block = self._blocks[foot * lay.BLOCK : (foot + 1) * lay.BLOCK]
         return FootEstimate(row, pose_part(block.reshape(lay.ERRORS, lay.ROW)))
 
+    def foot_headings(self) -> tuple[float, float]:
+        """Return the heading of each foot now, rad, whatever it does."""
+        assert self.row is not None
+        parts = self.row[: 2 * lay.O_FOOT].reshape(2, lay.O_FOOT)
+        left, right = (
+            self.facing.heading(foot, parts[foot, lay.O_QUAT : lay.O_QUAT + 4])
+            for foot in range(2)
+        )
+        return left, right
+
     def pedestrian(self) -> PedestrianEstimate | None:
         """Return the mid-point of the feet with heading, from the joint covariance."""
         if self.row is None or self._blocks is None:
             return None
         left, right = self.row[: lay.O_FOOT], self.row[lay.O_FOOT : 2 * lay.O_FOOT]
-        joint = joint_covariance(self._blocks)
-        mean = np.zeros((9, 30))
-        for i, (state, half) in enumerate(((lay.E_POS, 0.5), (lay.E_ATT, -0.5), (lay.E_VEL, 0.5))):
-            for axis in range(3):
-                mean[3 * i + axis, state + axis] = mean[
-                    3 * i + axis, lay.ERRORS + state + axis
-                ] = half
-        covariance = mean @ joint @ mean.T
+        covariance = mean_covariance(self._blocks)
+        if not self.facing.known:
+            covariance[5] = covariance[:, 5] = 0.0
+            covariance[5, 5] = UNKNOWN_VARIANCE
         return PedestrianEstimate(
             0.5 * (left[lay.O_POS : lay.O_POS + 3] + right[lay.O_POS : lay.O_POS + 3]),
             0.5 * (left[lay.O_VEL : lay.O_VEL + 3] + right[lay.O_VEL : lay.O_VEL + 3]),
-            mean_angle(*self._headings),
+            mean_angle(*self.facing.stances),
             covariance[:6, :6],
             covariance[6:, 6:],
         )
+
+
+def mean_covariance(blocks: FloatArray) -> FloatArray:
+    """Return the covariance (9, 9) of the feet's mean position, rotation and velocity.
+
+    ``blocks`` (3 BLOCK,) are the covariances of the left and the right foot, and the cross part.
+    """
+    own, other, cross = blocks.reshape(3, lay.ERRORS, lay.ROW)[:, MEAN_ROWS[:, None], MEAN_ROWS]
+    mean: FloatArray = 0.25 * (own + other + cross + cross.T) * MEAN_SIGNS
+    return mean
 
 
 def pose_part(block: FloatArray) -> FloatArray:

@@ -1,0 +1,14 @@
+"""The person between the feet: heading, floor, smooth motion, steps, and how far to trust it."""
+
+from .person import PersonEstimate, PersonTracker
+from .smoothing import SmoothedPerson, Smoother
+from .trust import Trust, TrustTracker
+
+__all__ = [
+    "PersonEstimate",
+    "PersonTracker",
+    "SmoothedPerson",
+    "Smoother",
+    "Trust",
+    "TrustTracker",
+]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-from geometry_msgs.msg import PoseWithCovarianceStamped
 from rclpy.node import Node
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
@@ -16,14 +15,14 @@ from ..timing import StampConfig
 from .inputs.calibrations import load_for_feet
 from .inputs.field_topics import FieldInput, FieldInputs
 from .inputs.foot_streams import FootStreams
+from .inputs.initial_pose import InitialPose
 from .inputs.pressure_topics import PressureInputs
 from .inputs.unit_check import UnitCheck
 from .results.fusion_report import FusionReport
 from .results.outputs import Outputs
-from .ros import qos
 from .ros.declared_parameters import declare, group
 from .ros.diagnostics import Reporter
-from .ros.messages import imu_values, pose_yaw, to_ns
+from .ros.messages import imu_values, to_ns
 from .ros.program import Graph, Program, run_nodes
 
 NO_PAIRS = "the node that makes the pairs, as time_sync, reports in /diagnostics why it has none"
@@ -111,11 +110,8 @@ class FusionNode(Node):
         return watched
 
     def _obey(self, frame_id: str) -> None:
-        self._frame_id = frame_id
         self._service = self.create_service(Trigger, "~/reset", self._reset)
-        self._initial_pose = self.create_subscription(
-            PoseWithCovarianceStamped, "initialpose", self._set_pose, qos.result(1)
-        )
+        self.initial_pose = InitialPose(self, frame_id, self._set_pose)
 
     def _read_sample(self, foot: str, message: Imu, stamp_ns: int) -> FloatArray:
         """Return specific force and angular rate (6,) of a message, calibrated."""
@@ -141,21 +137,12 @@ class FusionNode(Node):
         response.message = "aligning again: stand still"
         return response
 
-    def _set_pose(self, message: PoseWithCovarianceStamped) -> None:
-        log = self.get_logger()
-        if message.header.frame_id not in ("", self._frame_id):
-            log.warning(
-                f"initialpose is in frame '{message.header.frame_id}' and was ignored; "
-                f"allowed is '{self._frame_id}'"
-            )
-            return
-        pose = pose_yaw(message.pose.pose)
-        if pose is None:
-            log.warning("initialpose is not finite and was ignored")
-            return
-        position, yaw = pose
-        self.tracker.set_pose(position.tolist(), yaw)
-        log.info(f"pose set to {position.round(3).tolist()} m, heading {yaw:.3f} rad")
+    def _set_pose(self, position: list[float], yaw: float, covariance: FloatArray | None) -> None:
+        """Put the person on the floor at ``position`` (m); the tracks are those of the sensors."""
+        x, y, floor = position
+        sensors = [x, y, floor + self.tracker.config.zupt.lever_arm]
+        turned = yaw + self.outputs.person.swing_turn
+        self.tracker.set_pose(sensors, turned, covariance)
 
 
 def main() -> int:

@@ -19,6 +19,7 @@ from dualfoot_ros.core import (
 from dualfoot_ros.core.results.events import EventKind
 from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.nodes.fusion import FusionNode
+from dualfoot_ros.nodes.inputs.initial_pose import InitialPose
 from dualfoot_ros.nodes.ros import qos
 from dualfoot_ros.nodes.ros.messages import pose_of, to_ns
 from dualfoot_ros.recording import read_bag
@@ -326,17 +327,22 @@ def pose(x, y, yaw, frame_id="odom"):
     return message
 
 
-def test_initialpose_moves_and_turns_the_person(bench, monkeypatch):
-    taken, take = [], FusionNode._set_pose
+KNOWN = pose(10.0, -5.0, 1.0)
+KNOWN.pose.covariance[0] = KNOWN.pose.covariance[7] = 4.0
+KNOWN.pose.covariance[35] = 0.04
+
+
+def test_initialpose_moves_and_turns_the_person_as_well_as_it_says(bench, monkeypatch):
+    taken, take = [], InitialPose.receive
     monkeypatch.setattr(
-        FusionNode, "_set_pose", lambda self, message: taken.append(take(self, message))
+        InitialPose, "receive", lambda self, message: taken.append(take(self, message))
     )
     walker = Walker(bench)
     publisher = walker.probe.create_publisher(PoseWithCovarianceStamped, "initialpose", 1)
     bench.until(publisher.get_subscription_count, "discovery")
     walker.stand(4.0)
     for number, each in enumerate(
-        (pose(float("nan"), 0.0, 0.0), pose(50.0, 50.0, 0.0, "elsewhere"), pose(10.0, -5.0, 1.0))
+        (pose(float("nan"), 0.0, 0.0), pose(50.0, 50.0, 0.0, "elsewhere"), KNOWN)
     ):
         assert walker.fusion.tracker._pose is None
         publisher.publish(each)
@@ -345,4 +351,7 @@ def test_initialpose_moves_and_turns_the_person(bench, monkeypatch):
     person = walker.published()["person"][-1]
     position, quaternion = pose_of(person.pose.pose)
     np.testing.assert_allclose(position[:2], [10.0, -5.0], atol=0.02)
+    assert position[2] == pytest.approx(0.0, abs=0.01)  # the floor, not the sensors
     assert 2 * math.atan2(quaternion[2], quaternion[3]) == pytest.approx(1.0, abs=0.02)
+    covariance = person.pose.covariance.reshape(6, 6)
+    assert covariance[0, 0] == pytest.approx(4.0, rel=0.01)

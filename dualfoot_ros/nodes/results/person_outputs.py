@@ -45,6 +45,11 @@ class PersonOutputs:
         self._smoother.clear()
         self.trust.clear()
 
+    @property
+    def swing_turn(self) -> float:
+        """By how much the feet in stance are ahead of the person's heading now, rad."""
+        return self._person.swing_turn
+
     def publish(self, update: Update) -> None:
         """Publish the person of an update that has an estimate."""
         person = self._person.add(update)

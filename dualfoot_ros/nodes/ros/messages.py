@@ -139,6 +139,15 @@ def pose_yaw(pose: Pose) -> tuple[FloatArray, float] | None:
     return position, quaternion_yaw(quaternion / norm)
 
 
+def pose_covariance(values: FloatArray) -> FloatArray | None:
+    """Return the covariance (4, 4) of x, y, z and yaw in that (36,) of a message.
+
+    None where it is all zero, which says that it is not known.
+    """
+    known = np.array(values, dtype=np.float64).reshape(6, 6)[np.ix_(*[[0, 1, 2, 5]] * 2)]
+    return known if known.any() else None
+
+
 def _twist_covariance(linear: FloatArray, rate_variance: float) -> FloatArray:
     covariance = np.zeros((6, 6))
     covariance[:3, :3] = linear

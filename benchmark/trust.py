@@ -24,7 +24,7 @@ from dualfoot_ros.recording.importers import ImportOptions, import_recording
 from dualfoot_ros.simulation import WalkConfig, grade, simulate
 
 ROUTES = ("L", "rectangle", "track")
-ASKED_AT = (0.25, 0.5, 0.75)  # share of the walk at which the forecast is judged
+ASKED_AT = (0.05, 0.1, 0.25, 0.5, 0.75)  # share of the walk at which the forecast is judged
 
 
 def main() -> int:

@@ -76,6 +76,14 @@ class Session:
         spacing = self._method.spacing
         return None if spacing is None else (spacing.value_m, spacing.std_m)
 
+    def retune(self, config: TrackerConfig, aids: Sequence[Method]) -> None:
+        """Go on with other weights, thresholds, aids and distances."""
+        self._config, self._aids = config, aids
+        self._initial.retune(config)
+        self._method.retune(config.constraint)
+        self._roll_back.forget()
+        self.space.forget()
+
     def use(self, engine: Engine) -> None:
         """Go on with another form of the kernel."""
         self._engine = engine

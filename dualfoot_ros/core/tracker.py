@@ -97,6 +97,25 @@ class DualFootTracker:
         stamp = 0 if stamp_ns is None else stamp_ns
         self._pending.append(Event(EventKind.RESET, stamp, "both", stamp, reason=reason))
 
+    def retune(self, config: TrackerConfig) -> None:
+        """Go on with the weights, thresholds, aids and distances of ``config``.
+
+        What else it changes holds from the next alignment on; the method must be the same.
+
+        Raises
+        ------
+        ConfigError
+            When the method is another one.
+        """
+        if config.method != self.config.method:
+            raise ConfigError(
+                f"method is {config.method}; a running tracker keeps to {self.config.method}"
+            )
+        self.config = config
+        self._aids = self._inputs.retune(config.aids, self._aids)
+        if self._session is not None:
+            self._session.retune(config, self._aids)
+
     def set_pose(
         self, position: Sequence[float], yaw: float, covariance: FloatArray | None = None
     ) -> None:

@@ -5,12 +5,31 @@ from __future__ import annotations
 import sys
 from typing import Any
 
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
-from ..core import FEET, DualFootTracker, FloatArray, ImuPair, TrackerConfig, all_specs
-from ..settings import FrameConfig, FusionConfig, InputConfig, PathConfig, PersonConfig, node_specs
+from ..core import (
+    FEET,
+    ConfigError,
+    DualFootTracker,
+    FloatArray,
+    ImuPair,
+    TrackerConfig,
+    all_specs,
+    check,
+)
+from ..settings import (
+    LIVE,
+    FrameConfig,
+    FusionConfig,
+    InputConfig,
+    PathConfig,
+    PersonConfig,
+    node_specs,
+)
 from ..timing import StampConfig
 from .inputs.calibrations import load_for_feet
 from .inputs.field_topics import FieldInput, FieldInputs
@@ -54,8 +73,8 @@ class FusionNode(Node):
             When the calibration file cannot be used.
         """
         super().__init__("fusion", **options)
-        values = declare(self, [*node_specs("fusion"), *all_specs()])
-        own, frames = group(FusionConfig, values), group(FrameConfig, values, "frames.")
+        values = declare(self, [*node_specs("fusion"), *all_specs()], LIVE)
+        own, frames = group(FusionConfig, values), group(FrameConfig, values, "frames.").prefixed()
         tracker = {spec.name: values[spec.name] for spec in all_specs()}
         config = TrackerConfig.from_mapping(tracker)
         self.tracker = DualFootTracker(config, engine=own.engine)
@@ -76,6 +95,8 @@ class FusionNode(Node):
             self.get_logger(),
             external=own.sync == "external",
         )
+        self._values = values
+        self.add_on_set_parameters_callback(self._retune)
         self._reporter = Reporter(self, values, self.report.collect)
 
     def _listen(self, external: bool, values: dict[str, Any]) -> None:
@@ -136,6 +157,26 @@ class FusionNode(Node):
         response.success = True
         response.message = "aligning again: stand still"
         return response
+
+    def _retune(self, parameters: list[Parameter]) -> SetParametersResult:
+        """Go on with parameters that have changed; refuse those that are out of range."""
+        specs = {spec.name: spec for spec in (*node_specs("fusion"), *all_specs())}
+        changed = [p for p in parameters if p.name in specs]
+        try:
+            values = {p.name: check(specs[p.name], p.value) for p in changed}
+            merged = {**self._values, **values}
+            tracker = {spec.name: merged[spec.name] for spec in all_specs()}
+            config = TrackerConfig.from_mapping(tracker)
+            if any(name in tracker for name in values):
+                self.tracker.retune(config)
+        except ConfigError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        self._values = merged
+        self.outputs.person.trust.tracker.limit_m = merged["person.trust_limit"]
+        if values:
+            shown = ", ".join(f"{name}={value}" for name, value in values.items())
+            self.get_logger().info(f"changed: {shown}")
+        return SetParametersResult(successful=True)
 
     def _set_pose(self, position: list[float], yaw: float, covariance: FloatArray | None) -> None:
         """Put the person on the floor at ``position`` (m); the tracks are those of the sensors."""

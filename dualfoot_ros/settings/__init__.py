@@ -1,6 +1,7 @@
 """Parameters of the nodes, presets and parameter files."""
 
 from .files import flat, parameter_file, read_parameters
+from .live import LIVE, reason_read_only
 from .nodes import (
     AdapterConfig,
     BringupConfig,
@@ -20,6 +21,7 @@ from .nodes import (
 from .presets import find_config, load_config, preset_names
 
 __all__ = [
+    "LIVE",
     "AdapterConfig",
     "BringupConfig",
     "CovarianceConfig",
@@ -40,4 +42,5 @@ __all__ = [
     "parameter_file",
     "preset_names",
     "read_parameters",
+    "reason_read_only",
 ]

@@ -44,6 +44,14 @@ class FrameConfig(Parameters):
     left: str = parameter("left_foot", "frame of the left foot's sensor")
     right: str = parameter("right_foot", "frame of the right foot's sensor")
     pedestrian: str = parameter("base_footprint", "frame of the person between the feet")
+    prefix: str = parameter(
+        "", "put before each of these names, to have several people in one graph: anna/"
+    )
+
+    def prefixed(self) -> FrameConfig:
+        """Return the names with the prefix before each."""
+        names = (self.odom, self.left, self.right, self.pedestrian)
+        return FrameConfig(*(self.prefix + name for name in names))
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry, Path
+from rclpy.parameter import Parameter
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
@@ -355,3 +356,34 @@ def test_initialpose_moves_and_turns_the_person_as_well_as_it_says(bench, monkey
     assert 2 * math.atan2(quaternion[2], quaternion[3]) == pytest.approx(1.0, abs=0.02)
     covariance = person.pose.covariance.reshape(6, 6)
     assert covariance[0, 0] == pytest.approx(4.0, rel=0.01)
+
+
+def test_a_prefix_gives_every_frame_a_name_of_its_own(bench):
+    walker = Walker(bench, {"frames.prefix": "anna/"})
+    walker.stand(4.0)
+    got = walker.published()
+    assert {m.header.frame_id for name in ("left", "person") for m in got[name]} == {"anna/odom"}
+    assert {m.child_frame_id for m in got["person"]} == {"anna/base_footprint"}
+
+
+def test_thresholds_aids_and_spacing_change_while_it_runs_and_the_rest_says_why_not(bench):
+    walker = Walker(bench)
+    walker.stand(4.0)
+    fusion = walker.fusion
+    changes = {
+        "stance.threshold": 9000.0,
+        "aids.flat_floor": True,
+        "spacing_vector.spacing": 0.2,
+        "person.trust_limit": 5.0,
+    }
+    results = fusion.set_parameters([Parameter(name, value=v) for name, v in changes.items()])
+    assert all(result.successful for result in results)
+    assert fusion.tracker.config.stance.threshold == 9000.0
+    assert fusion.tracker.spacing == (0.2, 0.0)
+    assert fusion.outputs.person.trust.tracker.limit_m == 5.0
+    refused = [Parameter("zupt.std", value=-1.0), Parameter("frames.odom", value="map")]
+    assert not any(result.successful for result in fusion.set_parameters(refused))
+    described = fusion.describe_parameter("frames.odom")
+    assert "read-only: subscribers know the frames" in described.additional_constraints
+    walker.stand(1.0, 10**12 + 4 * 10**9)
+    assert walker.published()["person"]

@@ -22,6 +22,8 @@ from .person import (
     PersonTracker,
     SmoothedPerson,
     Smoother,
+    Step,
+    StepTracker,
     Trust,
     TrustTracker,
 )
@@ -125,6 +127,8 @@ __all__ = [
     "SourceError",
     "StanceEpochs",
     "StancePassing",
+    "Step",
+    "StepTracker",
     "SwingPassings",
     "TimingError",
     "TrackerConfig",

@@ -2,6 +2,7 @@
 
 from .person import PersonEstimate, PersonTracker
 from .smoothing import SmoothedPerson, Smoother
+from .steps import Step, StepTracker
 from .trust import Trust, TrustTracker
 
 __all__ = [
@@ -9,6 +10,8 @@ __all__ = [
     "PersonTracker",
     "SmoothedPerson",
     "Smoother",
+    "Step",
+    "StepTracker",
     "Trust",
     "TrustTracker",
 ]

@@ -39,7 +39,7 @@ class Outputs:
         children = {"left": frames.left, "right": frames.right}
         self._gyro_density = gyro_density
         self._feet = {f: new_odometry(frames.odom, children[f]) for f in FEET}
-        self.person = PersonOutputs(node, frames, person)
+        self.person = PersonOutputs(node, frames, person, path)
         self._odometry = {
             f: node.create_publisher(Odometry, f"{f}/odometry", qos.result()) for f in FEET
         }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from diagnostic_msgs.msg import DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 
@@ -13,15 +13,18 @@ from ...core import (
     PersonEstimate,
     PersonTracker,
     Smoother,
+    StepTracker,
     Trust,
     TrustTracker,
     Update,
 )
-from ...settings import FrameConfig, PersonConfig
+from ...settings import FrameConfig, PathConfig, PersonConfig
 from ..ros import qos
 from ..ros.diagnostics import key_values
 from ..ros.messages import fill_person, fill_smoothed, new_odometry
 from ..ros.status import OK, WARN, Status
+from .rviz_markers import Markers
+from .step_outputs import PersonPath, step_message
 
 TRUST_EVERY_NS = 1_000_000_000
 
@@ -29,8 +32,14 @@ TRUST_EVERY_NS = 1_000_000_000
 class PersonOutputs:
     """Publishers of the person between the feet."""
 
-    def __init__(self, node: Node, frames: FrameConfig, config: PersonConfig) -> None:
+    def __init__(
+        self, node: Node, frames: FrameConfig, config: PersonConfig, path: PathConfig
+    ) -> None:
         """Publish on topics of ``node``."""
+        self._steps = StepTracker()
+        self._step = node.create_publisher(DiagnosticArray, "steps", qos.result())
+        self._path = PersonPath(node, frames.odom, path)
+        self._markers = Markers(node, frames.odom)
         self._person = PersonTracker()
         self._smoother = Smoother(config.window, config.smoothed_rate)
         self.trust = TrustOutput(node, config.trust_limit)
@@ -43,6 +52,9 @@ class PersonOutputs:
         """Forget everything: the track starts anew."""
         self._person.clear()
         self._smoother.clear()
+        self._steps.clear()
+        self._path.clear()
+        self._markers.clear()
         self.trust.clear()
 
     @property
@@ -65,6 +77,15 @@ class PersonOutputs:
         if any(turn.joint for turn in turns):
             self.trust.clear()
         self.trust.add(person)
+        self._publish_steps(update, person)
+
+    def _publish_steps(self, update: Update, person: PersonEstimate) -> None:
+        """Publish the steps that are sure by now, and what shows them."""
+        steps = self._steps.add(update, person)
+        for step in steps:
+            self._step.publish(step_message(step))
+        self._path.add(person, steps, update.announced)
+        self._markers.add(update, person, steps)
 
 
 class TrustOutput:

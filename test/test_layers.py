@@ -43,6 +43,7 @@ ROS = {
     "std_srvs",
     "tf2_msgs",
     "tf2_ros",
+    "visualization_msgs",
 }
 HEAVY = {"bleak", "matplotlib", "numba", "rosbags", "scipy", "serial", *ROS}
 CLOCK_OR_LOG = {"datetime", "logging", "time"}

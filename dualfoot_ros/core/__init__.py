@@ -17,6 +17,16 @@ from .errors import (
     TimingError,
 )
 from .parameters import Parameters, ParameterSpec, check, parameter
+from .person import (
+    PersonEstimate,
+    PersonTracker,
+    SmoothedPerson,
+    Smoother,
+    Step,
+    StepTracker,
+    Trust,
+    TrustTracker,
+)
 from .refusals import Refusal, refusal_of
 from .results.events import FEET, Event, EventKind
 from .results.passings import (
@@ -104,6 +114,8 @@ __all__ = [
     "Parameters",
     "Passing",
     "PedestrianEstimate",
+    "PersonEstimate",
+    "PersonTracker",
     "PoseSeries",
     "PressureSeries",
     "Reason",
@@ -111,13 +123,19 @@ __all__ = [
     "Refusal",
     "SeriesError",
     "SimulationError",
+    "SmoothedPerson",
+    "Smoother",
     "SourceError",
     "StanceEpochs",
     "StancePassing",
+    "Step",
+    "StepTracker",
     "SwingPassings",
     "TimingError",
     "TrackerConfig",
     "Trajectory",
+    "Trust",
+    "TrustTracker",
     "Update",
     "Vector",
     "YawTurn",

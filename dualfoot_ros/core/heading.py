@@ -17,6 +17,7 @@ from .initial_state import InitialState
 from .kernel import Engine, Workspace
 from .kernel import layout as lay
 from .results.events import FEET, Event, EventKind
+from .results.facing import Facing
 from .results.payloads import YawTurn
 from .rotation import about_z, mean_angle, turn_between
 from .samples.series import FloatArray
@@ -91,6 +92,7 @@ class Headings:
         self.forward = config.given
         # a rotation of each sensor and the heading of the foot at that moment
         self._reference: list[tuple[FloatArray, float] | None] = [None, None]
+        self._levelled = [self._rotation(foot) for foot in range(2)]
         self.feet = (config.given, config.given)
 
     @property
@@ -129,6 +131,25 @@ class Headings:
     def late(self, foot: int) -> None:
         """Take note that ``foot`` begins after the other: forward is then where that one heads."""
         self._late = foot
+
+    def facing(self) -> Facing:
+        """Return what the headings of both feet follow from until their next stance."""
+        known = [
+            reference or (self._levelled[foot], self.forward)
+            for foot, reference in enumerate(self._reference)
+        ]
+        levers = [self._space.w[at : at + 3].copy() for at in map(lever_start, range(2))]
+        return Facing(
+            (known[0][0], known[1][0]),
+            (known[0][1], known[1][1]),
+            (levers[0], levers[1]),
+            self.present,
+            all(self.knows_way(foot) or self.absent[foot] for foot in range(2)),
+        )
+
+    def levelled(self) -> None:
+        """Take note that both feet have been levelled: they face forward as they are."""
+        self._levelled = [self._rotation(foot) for foot in range(2)]
 
     def face(self, yaw: float) -> None:
         """Take ``yaw`` (rad) as forward, before the first step."""
@@ -202,6 +223,11 @@ class Headings:
     def _rotation(self, foot: int) -> FloatArray:
         start = foot * lay.FOOT + lay.ROT
         return self._space.w[start : start + 9].reshape(3, 3).copy()
+
+
+def lever_start(foot: int) -> int:
+    """Return where the lever arm of foot 0 or 1 starts in a workspace."""
+    return lay.C_FOOT + foot * lay.C_STRIDE + lay.C_LEVER
 
 
 def turn(

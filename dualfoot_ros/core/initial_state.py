@@ -54,15 +54,9 @@ class InitialState:
         w[lay.C_Q_BG] = noise.gyro_bias**2
         w[lay.C_Q_BA] = noise.accelerometer_bias**2
         w[lay.C_BIAS_RATE] = 1.0 / noise.bias_time
-        growth = space.rate_hz / config.zupt.std_rate if config.zupt.std_rate > 0.0 else 1.0
-        w[lay.C_ZUPT_VAR] = config.zupt.std**2 * growth
         w[lay.C_ZUPT_CONSIDERS] = 1.0 if config.zupt.heading_correction == "none" else 0.0
-        w[lay.C_ZUPT_STILL_VAR] = config.zupt.still_std**2
         w[lay.C_BIAS_KNOWN_VAR] = config.zupt.bias_known**2
-        w[lay.C_ZUPT_RATE_VAR] = config.zupt.rate_std**2 * growth
-        w[lay.C_GLRT_FORCE] = 1.0 / stance.force_std**2
-        w[lay.C_GLRT_RATE] = 1.0 / stance.gyro_std**2
-        w[lay.C_GLRT_THRESHOLD] = stance.threshold
+        self._set_weights()
         w[lay.C_WATCH] = math.inf
         w[lay.C_ADAPTS] = 1.0 if stance.detector == "adaptive" else 0.0
         w[lay.D_EDGES : lay.D_EDGES + lay.BINS] = 10.0 ** (0.05 * np.arange(20, 20 + lay.BINS))
@@ -75,6 +69,22 @@ class InitialState:
         n[lay.N_STILL] = max(1, round(config.zupt.still_after * space.rate_hz))
         n[lay.N_MIN_STANCE] = max(1, round(stance.min_stance * space.rate_hz))
         n[lay.N_MIN_SWING] = max(1, round(stance.min_swing * space.rate_hz))
+
+    def _set_weights(self) -> None:
+        config, w = self._config, self._space.w
+        zupt, stance = config.zupt, config.stance
+        growth = self._space.rate_hz / zupt.std_rate if zupt.std_rate > 0.0 else 1.0
+        w[lay.C_ZUPT_VAR] = zupt.std**2 * growth
+        w[lay.C_ZUPT_STILL_VAR] = zupt.still_std**2
+        w[lay.C_ZUPT_RATE_VAR] = zupt.rate_std**2 * growth
+        w[lay.C_GLRT_FORCE] = 1.0 / stance.force_std**2
+        w[lay.C_GLRT_RATE] = 1.0 / stance.gyro_std**2
+        w[lay.C_GLRT_THRESHOLD] = stance.threshold
+
+    def retune(self, config: TrackerConfig) -> None:
+        """Go on with the weights and the threshold of ``config``."""
+        self._config = config
+        self._set_weights()
 
     def level(self, stills: Sequence[FootStandstill], origin: FloatArray, forward: float) -> None:
         """Start both feet from a standstill, side by side about ``origin`` (3,); forget the past.

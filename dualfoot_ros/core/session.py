@@ -17,6 +17,7 @@ from .alignment import Alignment, Start
 from .config import TrackerConfig
 from .constraints import METHODS, Method, Request, StancePhase
 from .gait_history import GaitHistory
+from .given_pose import GivenPose, apply_covariance
 from .heading import Headings, turn
 from .initial_state import InitialState
 from .joint_estimate import JointEstimate, Outcome
@@ -64,6 +65,7 @@ class Session:
         self._config, self._start, self._alignment = config, start, alignment
         self._feet = start.feet
         self._origin = np.zeros(3)
+        self._pose_covariance: FloatArray | None = None
         self._gait = GaitHistory(self.space)
         self._roll_back = RollBack(self.space)
         self._stands = Stands(config, self.space)
@@ -76,12 +78,21 @@ class Session:
         for foot, still in enumerate(start.feet):
             if still.absent:
                 self.absences.never_there(foot, still.end_ns)
+        self.facing = self.headings.facing()
 
     @property
     def spacing(self) -> tuple[float, float] | None:
         """Distance of the feet side by side and its standard deviation, m, if it is in use."""
         spacing = self._method.spacing
         return None if spacing is None else (spacing.value_m, spacing.std_m)
+
+    def retune(self, config: TrackerConfig, aids: Sequence[Method]) -> None:
+        """Go on with other weights, thresholds, aids and distances."""
+        self._config, self._aids = config, aids
+        self._initial.retune(config)
+        self._method.retune(config.constraint)
+        self._roll_back.forget()
+        self.space.forget()
 
     def use(self, engine: Engine) -> None:
         """Go on with another form of the kernel."""
@@ -95,6 +106,10 @@ class Session:
         arm = self._method.lever_arm
         if arm is not None:
             self._estimate.place(1, self._second_sensor(arm))
+        if self._pose_covariance is not None:
+            apply_covariance(self.space, self._pose_covariance, replace=False)
+        self.headings.levelled()
+        self.facing = self.headings.facing()
         self._watch()
 
     def _second_sensor(self, arm: FloatArray) -> FloatArray:
@@ -217,6 +232,7 @@ class Session:
             self._roll_back.forget()
             self.space.forget()
             self._watch()
+            self.facing = self.headings.facing()
         return found
 
     def _phase(self, foot: int, last: int) -> StancePhase:
@@ -236,6 +252,7 @@ class Session:
             self._roll_back.forget()
             self.space.forget()
         turned = self.headings.stance(self._engine, foot, now, walking)
+        self.facing = self.headings.facing()
         if turned and self.headings.known:
             turned += self._join_pair(now)
             self._watch()
@@ -284,6 +301,7 @@ class Session:
             self._roll_back.apply([Request(moment, True, beside)])
         found.append(self.absences.joined(foot, now))
         self._watch()
+        self.facing = self.headings.facing()
         return found
 
     def _learn_bias(self, foot: int, now: int) -> Found:
@@ -335,17 +353,21 @@ class Session:
         """Return whether `set_pose` can be obeyed now: standing, or the heading is known."""
         return self.phase == "standing" or self.headings.known
 
-    def set_pose(self, stamp: int, position: FloatArray, yaw: float) -> Found:
-        """Put the person at ``position`` (3,) m facing ``yaw``; return both tracks' turns."""
+    def set_pose(self, stamp: int, pose: GivenPose) -> Found:
+        """Put the person where the ``pose`` says; return both tracks' turns."""
+        position, yaw = pose.position, pose.yaw
         if self.phase == "standing":
             up_m = float(position[2] - self._origin[2])
             turned = yaw - self.headings.forward
-            self._origin = position
+            self._origin, self._pose_covariance = position, pose.covariance
             self.headings.face(yaw)
             self._level()
             found: Found = []
         else:
             found = self.headings.set_pose(self._engine, position, yaw, stamp)
+            if pose.covariance is not None:
+                apply_covariance(self.space, pose.covariance, replace=True)
+            self.facing = self.headings.facing()
             up_m, turned = found[0].turn.shift[2], found[0].turn.yaw
         for method in (*self._aids, self._method):
             method.moved(up_m, turned)

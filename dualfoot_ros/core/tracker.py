@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
@@ -13,6 +12,7 @@ from .alignment import Alignment, BiasPrior, Start
 from .compiler import BackgroundEngine, compiled
 from .config import TrackerConfig
 from .errors import AlignmentError, ConfigError
+from .given_pose import GivenPose, given_pose
 from .kernel import Engine, interpreted
 from .kernel import layout as lay
 from .results.events import FEET, Event, EventKind
@@ -57,7 +57,7 @@ class DualFootTracker:
         self.counters: Counter[str] = Counter()
         self._background = BackgroundEngine() if engine == "auto" else None
         self._engine = compiled() if engine == "compiled" else interpreted()
-        self._pose: tuple[FloatArray, float] | None = None
+        self._pose: GivenPose | None = None
         self._inputs = AidInputs(self.config.aids, self.counters)
         self._increments: dict[str, Increments | None] = dict.fromkeys(FEET)
         self._priors: dict[str, BiasPrior] = {}
@@ -97,23 +97,40 @@ class DualFootTracker:
         stamp = 0 if stamp_ns is None else stamp_ns
         self._pending.append(Event(EventKind.RESET, stamp, "both", stamp, reason=reason))
 
-    def set_pose(self, position: Sequence[float], yaw: float) -> None:
-        """Move and turn both tracks so that the person is at ``position`` (3,) m facing ``yaw``.
+    def retune(self, config: TrackerConfig) -> None:
+        """Go on with the weights, thresholds, aids and distances of ``config``.
 
-        Takes effect with the next pair that is tracked.
+        What else it changes holds from the next alignment on; the method must be the same.
 
         Raises
         ------
         ConfigError
-            When ``position`` is not three finite numbers or ``yaw`` is not finite.
+            When the method is another one.
         """
-        place = np.array(position, dtype=np.float64)
-        if place.shape != (3,) or not (np.isfinite(place).all() and math.isfinite(yaw)):
+        if config.method != self.config.method:
             raise ConfigError(
-                f"pose is {place.tolist()} m, {yaw} rad; allowed are three finite numbers and a "
-                "finite heading"
+                f"method is {config.method}; a running tracker keeps to {self.config.method}"
             )
-        self._pose = (place, float(yaw))
+        self.config = config
+        self._aids = self._inputs.retune(config.aids, self._aids)
+        if self._session is not None:
+            self._session.retune(config, self._aids)
+
+    def set_pose(
+        self, position: Sequence[float], yaw: float, covariance: FloatArray | None = None
+    ) -> None:
+        """Move and turn both tracks so that the person is at ``position`` (3,) m facing ``yaw``.
+
+        ``covariance`` (4, 4) of x, y, z (m) and yaw (rad) says how well that is known; without it
+        the tracks keep theirs.  Takes effect with the next pair that is tracked.
+
+        Raises
+        ------
+        ConfigError
+            When ``position`` is not three finite numbers, ``yaw`` is not finite, or ``covariance``
+            is none.
+        """
+        self._pose = given_pose(position, yaw, covariance)
 
     def add(self, pair: ImuPair) -> Update:
         """Take one pair; total: bad data gives a counted, named refusal, never an exception."""
@@ -254,14 +271,14 @@ class DualFootTracker:
             row=row,
             events=(*before, *found) if found else before,
             blocks=session.space.blocks(),
-            headings=session.headings.present,
+            facing=session.facing,
         )
 
     def _apply_pose(self, session: Session, stamp: int) -> list[Event]:
         if self._pose is None or not session.can_set_pose():
             return []
-        (position, yaw), self._pose = self._pose, None
-        return session.set_pose(stamp, position, yaw)
+        pose, self._pose = self._pose, None
+        return session.set_pose(stamp, pose)
 
     def run(
         self,

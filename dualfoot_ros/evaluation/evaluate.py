@@ -11,6 +11,7 @@ import numpy as np
 from ..core import EvaluationError, EventKind, FootTrajectory, IntArray, Trajectory
 from ..inspection import Finding
 from ..recording import Reference
+from ..settings import PersonConfig
 from .frames.association import Footfalls
 from .frames.gauge import (
     Markers,
@@ -29,8 +30,11 @@ from .metrics.foot_passings import FeetReport, feet_report
 from .metrics.heading_split import HeadingErrors, heading_errors
 from .metrics.markers import MarkerErrors, marker_errors
 from .metrics.nees import Consistency, consistency
+from .metrics.position_trust import trust_report
 from .notes import field_notes, marker_notes, pressure_notes, refusal_notes
 from .plain import plain
+
+TRUST_LIMIT_M = PersonConfig().trust_limit
 
 
 @dataclass(frozen=True)
@@ -109,6 +113,7 @@ class Evaluation:
                 "closed_loop": self.closed_loop,
                 "closure": self.closure and asdict(self.closure),
                 "feet": asdict(self.feet),
+                "trust": asdict(trust_report(self.tracked, TRUST_LIMIT_M)),
                 "events": event_counts(track),
                 "counters": dict(track.counters),
                 "notes": list(self.notes),

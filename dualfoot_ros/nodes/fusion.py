@@ -5,27 +5,46 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-from geometry_msgs.msg import PoseWithCovarianceStamped
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
-from ..core import FEET, DualFootTracker, EventKind, FloatArray, ImuPair, TrackerConfig, all_specs
-from ..settings import FrameConfig, FusionConfig, InputConfig, PathConfig, node_specs
+from ..core import (
+    FEET,
+    ConfigError,
+    DualFootTracker,
+    EventKind,
+    FloatArray,
+    ImuPair,
+    TrackerConfig,
+    all_specs,
+    check,
+)
+from ..settings import (
+    LIVE,
+    FrameConfig,
+    FusionConfig,
+    InputConfig,
+    PathConfig,
+    PersonConfig,
+    node_specs,
+)
 from ..timing import StampConfig
 from .inputs.calibrations import load_for_feet
 from .inputs.field_topics import FieldInput, FieldInputs
 from .inputs.foot_streams import FootStreams
 from .inputs.increments_topics import IncrementsInputs
+from .inputs.initial_pose import InitialPose
 from .inputs.kept_biases import KeptBiases
 from .inputs.pressure_topics import PressureInputs
 from .inputs.unit_check import UnitCheck
 from .results.fusion_report import FusionReport
 from .results.outputs import Outputs
-from .ros import qos
 from .ros.declared_parameters import declare, group
 from .ros.diagnostics import Reporter
-from .ros.messages import imu_values, pose_yaw, to_ns
+from .ros.messages import imu_values, to_ns
 from .ros.program import Graph, Program, run_nodes
 
 NO_PAIRS = "the node that makes the pairs, as time_sync, reports in /diagnostics why it has none"
@@ -57,13 +76,15 @@ class FusionNode(Node):
             When the calibration file cannot be used.
         """
         super().__init__("fusion", **options)
-        values = declare(self, [*node_specs("fusion"), *all_specs()])
-        own, frames = group(FusionConfig, values), group(FrameConfig, values, "frames.")
+        values = declare(self, [*node_specs("fusion"), *all_specs()], LIVE)
+        own, frames = group(FusionConfig, values), group(FrameConfig, values, "frames.").prefixed()
         tracker = {spec.name: values[spec.name] for spec in all_specs()}
         config = TrackerConfig.from_mapping(tracker)
         self.tracker = DualFootTracker(config, engine=own.engine)
         path = group(PathConfig, values, "path.")
-        self.outputs = Outputs(self, frames, path, config.noise.gyro, own.publish_tf)
+        person = group(PersonConfig, values, "person.")
+        density = config.noise.gyro
+        self.outputs = Outputs(self, frames, path, person, density, tf=own.publish_tf)
         self._calibration = load_for_feet(own.calibration)
         self.memory = KeptBiases(own.bias_memory, self.tracker, self.get_logger())
         warn = self.get_logger().warning
@@ -73,11 +94,18 @@ class FusionNode(Node):
         self.report = FusionReport(
             self.tracker,
             self.streams.aligner,
-            [self.streams, self.increments, *self._unit_checks.values()],
+            [
+                self.streams,
+                self.increments,
+                self.outputs.person.trust,
+                *self._unit_checks.values(),
+            ],
             self.get_clock(),
             self.get_logger(),
             external=own.sync == "external",
         )
+        self._values = values
+        self.add_on_set_parameters_callback(self._retune)
         self._reporter = Reporter(self, values, self.report.collect)
         self.streams.on_change = self._reporter.report
 
@@ -117,11 +145,8 @@ class FusionNode(Node):
         return watched
 
     def _obey(self, frame_id: str) -> None:
-        self._frame_id = frame_id
         self._service = self.create_service(Trigger, "~/reset", self._reset)
-        self._initial_pose = self.create_subscription(
-            PoseWithCovarianceStamped, "initialpose", self._set_pose, qos.result(1)
-        )
+        self.initial_pose = InitialPose(self, frame_id, self._set_pose)
 
     def _read_sample(self, foot: str, message: Imu, stamp_ns: int) -> FloatArray:
         """Return specific force and angular rate (6,) of a message, calibrated."""
@@ -155,21 +180,32 @@ class FusionNode(Node):
         response.message = "aligning again: stand still"
         return response
 
-    def _set_pose(self, message: PoseWithCovarianceStamped) -> None:
-        log = self.get_logger()
-        if message.header.frame_id not in ("", self._frame_id):
-            log.warning(
-                f"initialpose is in frame '{message.header.frame_id}' and was ignored; "
-                f"allowed is '{self._frame_id}'"
-            )
-            return
-        pose = pose_yaw(message.pose.pose)
-        if pose is None:
-            log.warning("initialpose is not finite and was ignored")
-            return
-        position, yaw = pose
-        self.tracker.set_pose(position.tolist(), yaw)
-        log.info(f"pose set to {position.round(3).tolist()} m, heading {yaw:.3f} rad")
+    def _retune(self, parameters: list[Parameter]) -> SetParametersResult:
+        """Go on with parameters that have changed; refuse those that are out of range."""
+        specs = {spec.name: spec for spec in (*node_specs("fusion"), *all_specs())}
+        changed = [p for p in parameters if p.name in specs]
+        try:
+            values = {p.name: check(specs[p.name], p.value) for p in changed}
+            merged = {**self._values, **values}
+            tracker = {spec.name: merged[spec.name] for spec in all_specs()}
+            config = TrackerConfig.from_mapping(tracker)
+            if any(name in tracker for name in values):
+                self.tracker.retune(config)
+        except ConfigError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        self._values = merged
+        self.outputs.person.trust.tracker.limit_m = merged["person.trust_limit"]
+        if values:
+            shown = ", ".join(f"{name}={value}" for name, value in values.items())
+            self.get_logger().info(f"changed: {shown}")
+        return SetParametersResult(successful=True)
+
+    def _set_pose(self, position: list[float], yaw: float, covariance: FloatArray | None) -> None:
+        """Put the person on the floor at ``position`` (m); the tracks are those of the sensors."""
+        x, y, floor = position
+        sensors = [x, y, floor + self.tracker.config.zupt.lever_arm]
+        turned = yaw + self.outputs.person.swing_turn
+        self.tracker.set_pose(sensors, turned, covariance)
 
 
 def main() -> int:

@@ -1,6 +1,7 @@
 """Parameters of the nodes, presets and parameter files."""
 
 from .files import flat, parameter_file, read_parameters
+from .live import LIVE, reason_read_only
 from .nodes import (
     AdapterConfig,
     BringupConfig,
@@ -10,6 +11,7 @@ from .nodes import (
     InputConfig,
     KindConfig,
     PathConfig,
+    PersonConfig,
     PlayConfig,
     ReplayConfig,
     ReportConfig,
@@ -20,6 +22,7 @@ from .nodes import (
 from .presets import find_config, load_config, preset_names
 
 __all__ = [
+    "LIVE",
     "AdapterConfig",
     "BringupConfig",
     "CovarianceConfig",
@@ -28,6 +31,7 @@ __all__ = [
     "InputConfig",
     "KindConfig",
     "PathConfig",
+    "PersonConfig",
     "PlayConfig",
     "ReplayConfig",
     "ReportConfig",
@@ -40,4 +44,5 @@ __all__ = [
     "parameter_file",
     "preset_names",
     "read_parameters",
+    "reason_read_only",
 ]

@@ -53,6 +53,14 @@ class FrameConfig(Parameters):
     left: str = parameter("left_foot", "frame of the left foot's sensor")
     right: str = parameter("right_foot", "frame of the right foot's sensor")
     pedestrian: str = parameter("base_footprint", "frame of the person between the feet")
+    prefix: str = parameter(
+        "", "put before each of these names, to have several people in one graph: anna/"
+    )
+
+    def prefixed(self) -> FrameConfig:
+        """Return the names with the prefix before each."""
+        names = (self.odom, self.left, self.right, self.pedestrian)
+        return FrameConfig(*(self.prefix + name for name in names))
 
 
 @dataclass(frozen=True)
@@ -62,6 +70,29 @@ class PathConfig(Parameters):
     length: int = parameter(1000, "poses kept; the oldest are dropped", minimum=2, maximum=100000)
     period: float = parameter(
         1.0, "least time between two messages", unit="s", minimum=1.0, maximum=60.0
+    )
+
+
+@dataclass(frozen=True)
+class PersonConfig(Parameters):
+    """What fusion publishes of the person between the feet."""
+
+    window: float = parameter(
+        1.0,
+        "length of the mean of odometry/smoothed, which lags by half of it; about a stride",
+        unit="s",
+        minimum=0.2,
+        maximum=5.0,
+    )
+    smoothed_rate: float = parameter(
+        50.0, "most messages a second of odometry/smoothed", unit="Hz", minimum=1.0, maximum=1000.0
+    )
+    trust_limit: float = parameter(
+        3.0,
+        "95 % radius of the position up to which it is trusted",
+        unit="m",
+        minimum=0.01,
+        maximum=1.0e4,
     )
 
 
@@ -217,6 +248,7 @@ GROUPS: dict[str, type[Parameters]] = {
     "input": InputConfig,
     "frames": FrameConfig,
     "path": PathConfig,
+    "person": PersonConfig,
     "reports": ReportConfig,
     "mounting": MountingConfig,
     "units": UnitConfig,
@@ -230,7 +262,7 @@ GROUPS: dict[str, type[Parameters]] = {
 NODES: dict[str, tuple[type[Parameters], tuple[str, ...]]] = {
     "fusion": (
         FusionConfig,
-        ("aligner", "stamping", "clock", "input", "frames", "path", "reports"),
+        ("aligner", "stamping", "clock", "input", "frames", "path", "person", "reports"),
     ),
     "imu_adapter": (
         AdapterConfig,

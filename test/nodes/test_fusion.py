@@ -6,6 +6,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry, Path
+from rclpy.parameter import Parameter
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
@@ -19,6 +20,7 @@ from dualfoot_ros.core import (
 from dualfoot_ros.core.results.events import EventKind
 from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.nodes.fusion import FusionNode
+from dualfoot_ros.nodes.inputs.initial_pose import InitialPose
 from dualfoot_ros.nodes.ros import qos
 from dualfoot_ros.nodes.ros.messages import pose_of, to_ns
 from dualfoot_ros.recording import read_bag
@@ -180,14 +182,16 @@ def test_the_twist_is_the_change_of_the_pose_in_the_child_frame(bench, pairs):
     assert np.median(np.linalg.norm(change - velocity, axis=1)[swings]) < 0.1
 
 
-def test_the_person_is_midway_between_the_feet(bench, pairs):
+def test_the_person_is_midway_between_the_feet_on_the_floor(bench, pairs):
     walker = Walker(bench)
     walker.walk(*pairs)
     got = walker.published()
     left, right, person = (
         np.array([pose_of(m.pose.pose)[0] for m in got[n]]) for n in ("left", "right", "person")
     )
-    np.testing.assert_allclose(person, 0.5 * (left + right), atol=1e-12)
+    np.testing.assert_allclose(person[:, :2], 0.5 * (left + right)[:, :2], atol=1e-12)
+    assert person[0, 2] == pytest.approx(-TrackerConfig().zupt.lever_arm, abs=0.005)
+    assert np.mean(person[:, 2] < np.minimum(left, right)[:, 2]) > 0.99
     assert all(abs(m.pose.pose.orientation.x) < 1e-12 for m in got["person"])
 
 
@@ -324,17 +328,22 @@ def pose(x, y, yaw, frame_id="odom"):
     return message
 
 
-def test_initialpose_moves_and_turns_the_person(bench, monkeypatch):
-    taken, take = [], FusionNode._set_pose
+KNOWN = pose(10.0, -5.0, 1.0)
+KNOWN.pose.covariance[0] = KNOWN.pose.covariance[7] = 4.0
+KNOWN.pose.covariance[35] = 0.04
+
+
+def test_initialpose_moves_and_turns_the_person_as_well_as_it_says(bench, monkeypatch):
+    taken, take = [], InitialPose.receive
     monkeypatch.setattr(
-        FusionNode, "_set_pose", lambda self, message: taken.append(take(self, message))
+        InitialPose, "receive", lambda self, message: taken.append(take(self, message))
     )
     walker = Walker(bench)
     publisher = walker.probe.create_publisher(PoseWithCovarianceStamped, "initialpose", 1)
     bench.until(publisher.get_subscription_count, "discovery")
     walker.stand(4.0)
     for number, each in enumerate(
-        (pose(float("nan"), 0.0, 0.0), pose(50.0, 50.0, 0.0, "elsewhere"), pose(10.0, -5.0, 1.0))
+        (pose(float("nan"), 0.0, 0.0), pose(50.0, 50.0, 0.0, "elsewhere"), KNOWN)
     ):
         assert walker.fusion.tracker._pose is None
         publisher.publish(each)
@@ -343,4 +352,38 @@ def test_initialpose_moves_and_turns_the_person(bench, monkeypatch):
     person = walker.published()["person"][-1]
     position, quaternion = pose_of(person.pose.pose)
     np.testing.assert_allclose(position[:2], [10.0, -5.0], atol=0.02)
+    assert position[2] == pytest.approx(0.0, abs=0.01)  # the floor, not the sensors
     assert 2 * math.atan2(quaternion[2], quaternion[3]) == pytest.approx(1.0, abs=0.02)
+    covariance = person.pose.covariance.reshape(6, 6)
+    assert covariance[0, 0] == pytest.approx(4.0, rel=0.01)
+
+
+def test_a_prefix_gives_every_frame_a_name_of_its_own(bench):
+    walker = Walker(bench, {"frames.prefix": "anna/"})
+    walker.stand(4.0)
+    got = walker.published()
+    assert {m.header.frame_id for name in ("left", "person") for m in got[name]} == {"anna/odom"}
+    assert {m.child_frame_id for m in got["person"]} == {"anna/base_footprint"}
+
+
+def test_thresholds_aids_and_spacing_change_while_it_runs_and_the_rest_says_why_not(bench):
+    walker = Walker(bench)
+    walker.stand(4.0)
+    fusion = walker.fusion
+    changes = {
+        "stance.threshold": 9000.0,
+        "aids.flat_floor": True,
+        "spacing_vector.spacing": 0.2,
+        "person.trust_limit": 5.0,
+    }
+    results = fusion.set_parameters([Parameter(name, value=v) for name, v in changes.items()])
+    assert all(result.successful for result in results)
+    assert fusion.tracker.config.stance.threshold == 9000.0
+    assert fusion.tracker.spacing == (0.2, 0.0)
+    assert fusion.outputs.person.trust.tracker.limit_m == 5.0
+    refused = [Parameter("zupt.std", value=-1.0), Parameter("frames.odom", value="map")]
+    assert not any(result.successful for result in fusion.set_parameters(refused))
+    described = fusion.describe_parameter("frames.odom")
+    assert "read-only: subscribers know the frames" in described.additional_constraints
+    walker.stand(1.0, 10**12 + 4 * 10**9)
+    assert walker.published()["person"]

@@ -31,11 +31,13 @@ class Barometer(Method):
 
     needs_heading = False
 
+    config: AidsConfig
+
     def __init__(
         self, config: AidsConfig, logs: Mapping[str, PressureLog], counters: Counter[str]
     ) -> None:
         """Read ``logs``, one for each of WORN; count stances without pressure in ``counters``."""
-        self._config, self._logs, self._counters = config, logs, counters
+        self.config, self._logs, self._counters = config, logs, counters
         self._began_ns: list[int | None] = [None, None]
         self._zero: dict[tuple[int, str], float] = {}
 
@@ -51,7 +53,7 @@ class Barometer(Method):
         if began_ns is None or not gait.remembers(stance.last):
             return ()
         worn, inside = self._measured(foot, max(began_ns, last_ns - LONGEST_NS), last_ns)
-        if len(inside) < self._config.barometer_samples:
+        if len(inside) < self.config.barometer_samples:
             self._counters[Refusal.STANCES_WITHOUT_PRESSURE] += 1
             return ()
         height = sum(inside) / len(inside)
@@ -64,7 +66,7 @@ class Barometer(Method):
     def _measured(self, foot: int, first_ns: int, last_ns: int) -> tuple[str, list[float]]:
         """Return the heights of the foot's own sensor, or of the body's where it has too few."""
         own = self._logs[FEET[foot]].between(first_ns, last_ns)
-        if len(own) >= self._config.barometer_samples:
+        if len(own) >= self.config.barometer_samples:
             return FEET[foot], own
         return "both", self._logs["both"].between(first_ns, last_ns)
 
@@ -75,7 +77,7 @@ class Barometer(Method):
             self._zero[foot, worn] = height - z
             return nothing_done(measured, Reason.FIRST_STANCE)
         innovation = z - (height - self._zero[foot, worn])
-        rows, variance = [{position_row(foot, 2): 1.0}], self._config.barometer_std**2
+        rows, variance = [{position_row(foot, 2): 1.0}], self.config.barometer_std**2
         s, nis = estimate.update(rows, [innovation], [variance])
         return Outcome(np.array([innovation]), s, nis, True, measured)
 

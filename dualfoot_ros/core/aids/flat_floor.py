@@ -27,9 +27,11 @@ class FlatFloor(Method):
 
     needs_heading = False
 
+    config: AidsConfig
+
     def __init__(self, config: AidsConfig) -> None:
         """Use ``config.floor_std`` and ``config.static_std``."""
-        self._config = config
+        self.config = config
         self._stood: list[FloatArray | None] = [None, None]
         self._floor_m = 0.0
 
@@ -58,13 +60,13 @@ class FlatFloor(Method):
     def _height(self, estimate: JointEstimate, foot: int) -> Outcome:
         innovation = estimate.position(foot)[2:] - self._floor_m
         rows = [{position_row(foot, 2): 1.0}]
-        s, nis = estimate.update(rows, innovation.tolist(), [self._config.floor_std**2])
+        s, nis = estimate.update(rows, innovation.tolist(), [self.config.floor_std**2])
         return Outcome(innovation, s, nis, True, HEIGHT)
 
     def _place(self, estimate: JointEstimate, foot: int, place: FloatArray) -> Outcome:
         innovation = (estimate.position(foot) - place)[:2]
         rows = [{position_row(foot, axis): 1.0} for axis in (0, 1)]
-        s, nis = estimate.update(rows, innovation.tolist(), [self._config.static_std**2] * 2)
+        s, nis = estimate.update(rows, innovation.tolist(), [self.config.static_std**2] * 2)
         return Outcome(innovation, s, nis, True, PLACE)
 
     def moved(self, up_m: float, turned: float) -> None:

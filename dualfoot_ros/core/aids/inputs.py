@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -39,6 +40,23 @@ class AidInputs:
             found.append(Barometer(config, self._pressure, counters))
         if config.magnetic_heading:
             found.append(MagneticHeading(config, self._fields, counters))
+        return found
+
+    def retune(self, config: AidsConfig, aids: Sequence[Method]) -> list[Method]:
+        """Return ``aids`` with the weights of ``config``, and the flat floor on or off.
+
+        The barometer and the magnetic heading stay as they are, on or off.
+        """
+        self._config = replace(
+            config,
+            barometer=self._config.barometer,
+            magnetic_heading=self._config.magnetic_heading,
+        )
+        others = [aid for aid in aids if not isinstance(aid, FlatFloor)]
+        floors = [aid for aid in aids if isinstance(aid, FlatFloor)] or [FlatFloor(self._config)]
+        found: list[Method] = [*(floors if config.flat_floor else []), *others]
+        for aid in found:
+            aid.retune(self._config)
         return found
 
     def take_pressure(self, worn: str, stamp_ns: int, pascal: float) -> Refusal | None:

@@ -50,11 +50,13 @@ class MagneticHeading(Method):
     memory_s = 0.5 * LONGEST_S
     needs_heading = True
 
+    config: AidsConfig
+
     def __init__(
         self, config: AidsConfig, logs: Mapping[str, FieldLog], counters: Counter[str]
     ) -> None:
         """Read ``logs``, one for each foot; count in ``counters`` the stances that gave none."""
-        self._config, self._logs, self._counters = config, logs, counters
+        self.config, self._logs, self._counters = config, logs, counters
         self._reference: list[NavigationField | None] = [None, None]
         self._first: list[list[NavigationField]] = [[], []]
         self._in_a_row = [0, 0]  # stances of each foot, up to the last, that were alike
@@ -70,7 +72,7 @@ class MagneticHeading(Method):
             self._counters[Refusal.STANCES_WITHOUT_FIELD] += 1
             return ()
 
-        trusted = self._in_a_row[foot] + 1 >= self._config.magnetic_stances
+        trusted = self._in_a_row[foot] + 1 >= self.config.magnetic_stances
 
         def apply(estimate: JointEstimate) -> Outcome:
             return self._apply(estimate, foot, measured, trusted)
@@ -99,7 +101,7 @@ class MagneticHeading(Method):
             return nothing_done(direction, Reason.AFTER_DISTURBANCE)
         innovation = math.remainder(field.angle - reference.angle, math.tau)
         row = heading_row(foot, field)
-        s, nis = estimate.update([row], [innovation], [self._config.magnetic_std**2])
+        s, nis = estimate.update([row], [innovation], [self.config.magnetic_std**2])
         return Outcome(np.array([innovation]), s, nis, True, direction)
 
     def _alike(self, field: NavigationField, reference: NavigationField) -> bool:
@@ -107,8 +109,8 @@ class MagneticHeading(Method):
             return False
         size = abs(field.norm - reference.norm)
         dip = abs(field.dip - reference.dip)
-        alike = size <= self._config.magnetic_size * reference.norm
-        return alike and dip <= self._config.magnetic_dip
+        alike = size <= self.config.magnetic_size * reference.norm
+        return alike and dip <= self.config.magnetic_dip
 
     def note(self, outcome: Outcome) -> None:
         """Learn the reference from the first stances that agree; count those that are refused."""
@@ -124,7 +126,7 @@ class MagneticHeading(Method):
 
     def _learn(self, foot: int, field: NavigationField) -> None:
         """Take the mean of the last stances for the reference, if they are all like it."""
-        first, enough = self._first[foot], self._config.magnetic_stances
+        first, enough = self._first[foot], self.config.magnetic_stances
         first.append(field)
         del first[:-enough]
         mean = mean_field(first)

@@ -118,6 +118,10 @@ class Method:
         """Use ``config``, an instance of ``config_class``."""
         self.config = config
 
+    def retune(self, config: Parameters) -> None:
+        """Go on with other weights and distances of ``config``."""
+        self.config = config
+
     def on_stance_start(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
         """Return what follows from a stance that has been confirmed."""
         return ()

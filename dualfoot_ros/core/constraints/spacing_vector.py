@@ -95,6 +95,13 @@ class SpacingVector(Method):
         self.spacing = Spacing(config.spacing)
         self.memory_s = config.max_stance
 
+    def retune(self, config: Parameters) -> None:
+        """Go on with ``config``; a spacing that has changed is used, or learnt, from here on."""
+        assert isinstance(config, SpacingVectorConfig)
+        if config.spacing != self.config.spacing:
+            self.spacing = Spacing(config.spacing)
+        self.config = config
+
     def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
         """Return the constraint of a stance that was a step."""
         other = 1 - stance.foot

@@ -7,15 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..kernel import joint_covariance
 from ..kernel import layout as lay
 from ..rotation import mean_angle, quaternion_yaw
 from ..samples.series import FloatArray
 from .events import Event
+from .facing import NO_FACING, UNKNOWN_VARIANCE, Facing
 from .rows import matrices, zupt_event
 
 ONE_FOOT_STD = 0.4  # m, of the person about one foot
 POSE_SIGNS = np.repeat([1.0, -1.0], 3)  # position error, rotation error = -phi
+MEAN_ROWS = np.concatenate([np.arange(3) + start for start in (lay.E_POS, lay.E_ATT, lay.E_VEL)])
+MEAN_SIGNS = np.outer(np.repeat([1.0, -1.0, 1.0], 3), np.repeat([1.0, -1.0, 1.0], 3))
 
 
 @dataclass(frozen=True)
@@ -68,8 +70,9 @@ class FootEstimate:
 class PedestrianEstimate:
     """The person between the feet.
 
-    ``heading`` is the direction the person faces, rad: the mean of the feet's headings as last
-    seen in stance, against what they were on the first strides.
+    ``position`` is midway between the sensors.  ``heading`` is the direction the person faces,
+    rad: the mean of the feet's headings as last seen in stance, against what they were on the
+    first strides.  Until those have been made nothing is known of it, and its variance says so.
     """
 
     position: FloatArray
@@ -88,7 +91,7 @@ class Update:
     """
 
     __slots__ = (
-        "_blocks", "_headings", "_noted", "earlier", "phase", "refused", "row", "stamp_ns",
+        "_blocks", "_noted", "earlier", "facing", "phase", "refused", "row", "stamp_ns",
     )  # fmt: skip
 
     def __init__(
@@ -100,11 +103,15 @@ class Update:
         row: FloatArray | None = None,
         events: tuple[Event, ...] = (),
         blocks: FloatArray | None = None,
-        headings: tuple[float, float] = (0.0, 0.0),
+        facing: Facing = NO_FACING,
     ) -> None:
-        """Keep what was computed; ``blocks`` is the covariance as `Workspace.blocks` gives it."""
+        """Keep what was computed.
+
+        ``blocks`` is the covariance as `Workspace.blocks` gives it, ``facing`` what the headings
+        of the feet follow from.
+        """
         self.stamp_ns, self.phase, self.refused, self.row = stamp_ns, phase, refused, row
-        self._noted, self._blocks, self._headings = events, blocks, headings
+        self._noted, self._blocks, self.facing = events, blocks, facing
         self.earlier: tuple[Update, ...] = ()
 
     def after(self, earlier: Sequence[Update]) -> Update:
@@ -151,35 +158,55 @@ class Update:
         return left, right
 
     def _shares(self) -> tuple[float, float]:
-        """Return the shares of the feet in the place of the person."""
+        """Return the shares of the feet in the person: a half each, or all of the one there."""
         left, right = self.present
         if left == right:
             return 0.5, 0.5
         return (1.0, 0.0) if left else (0.0, 1.0)
+
+    def foot_headings(self) -> tuple[float, float]:
+        """Return the heading of each foot now, rad; of a foot that is missing, the other's."""
+        assert self.row is not None
+        parts = self.row[: 2 * lay.O_FOOT].reshape(2, lay.O_FOOT)
+        left, right = (
+            self.facing.heading(foot, parts[foot, lay.O_QUAT : lay.O_QUAT + 4])
+            for foot in range(2)
+        )
+        there = self.present
+        return left if there[0] else right, right if there[1] else left
 
     def pedestrian(self) -> PedestrianEstimate | None:
         """Return the mid-point of the feet with heading, from the joint covariance."""
         if self.row is None or self._blocks is None:
             return None
         left, right = self.row[: lay.O_FOOT], self.row[lay.O_FOOT : 2 * lay.O_FOOT]
-        joint = joint_covariance(self._blocks)
-        mean = np.zeros((9, 30))
         shares = self._shares()
-        for i, (state, sign) in enumerate(((lay.E_POS, 1.0), (lay.E_ATT, -1.0), (lay.E_VEL, 1.0))):
-            for axis in range(3):
-                for foot, share in enumerate(shares):
-                    mean[3 * i + axis, lay.ERRORS * foot + state + axis] = sign * share
-        covariance = mean @ joint @ mean.T
+        covariance = mean_covariance(self._blocks, shares)
+        if not self.facing.known:
+            covariance[5] = covariance[:, 5] = 0.0
+            covariance[5, 5] = UNKNOWN_VARIANCE
         if 1.0 in shares:  # the person is within reach of the one foot that is there
             covariance[:3, :3] += ONE_FOOT_STD**2 * np.eye(3)
         pos, vel = (slice(start, start + 3) for start in (lay.O_POS, lay.O_VEL))
         return PedestrianEstimate(
             shares[0] * left[pos] + shares[1] * right[pos],
             shares[0] * left[vel] + shares[1] * right[vel],
-            mean_angle(*self._headings),
+            mean_angle(*self.facing.stances),
             covariance[:6, :6],
             covariance[6:, 6:],
         )
+
+
+def mean_covariance(blocks: FloatArray, shares: tuple[float, float] = (0.5, 0.5)) -> FloatArray:
+    """Return the covariance (9, 9) of the feet's mean position, rotation and velocity.
+
+    ``blocks`` (3 BLOCK,) are the covariances of the left and the right foot, and the cross part;
+    ``shares`` what each foot counts in the mean.
+    """
+    own, other, cross = blocks.reshape(3, lay.ERRORS, lay.ROW)[:, MEAN_ROWS[:, None], MEAN_ROWS]
+    a, b = shares
+    mean: FloatArray = (a * a * own + b * b * other + a * b * (cross + cross.T)) * MEAN_SIGNS
+    return mean
 
 
 def pose_part(block: FloatArray) -> FloatArray:

@@ -12,11 +12,12 @@ from nav_msgs.msg import Path as PathMessage
 from rclpy.node import Node
 
 from ...core import FEET, ConfigError, EventKind, Update
-from ...settings import FrameConfig, PathConfig
+from ...settings import FrameConfig, PathConfig, PersonConfig
 from ..ros import qos
-from ..ros.messages import fill_foot, fill_pedestrian, new_odometry
+from ..ros.messages import fill_foot, new_odometry
 from . import event_messages
 from .foot_path import FootPath
+from .person_outputs import PersonOutputs
 
 EVENTS_KEPT = 200
 
@@ -29,17 +30,23 @@ class Outputs:
     """
 
     def __init__(
-        self, node: Node, frames: FrameConfig, path: PathConfig, gyro_density: float, tf: bool
+        self,
+        node: Node,
+        frames: FrameConfig,
+        path: PathConfig,
+        person: PersonConfig,
+        gyro_density: float,
+        *,
+        tf: bool,
     ) -> None:
         """``gyro_density`` (rad/s/sqrt(Hz)) gives the noise of the published angular rate."""
         children = {"left": frames.left, "right": frames.right}
         self._gyro_density = gyro_density
         self._feet = {f: new_odometry(frames.odom, children[f]) for f in FEET}
-        self._person = new_odometry(frames.odom, frames.pedestrian)
+        self.person = PersonOutputs(node, frames, person, path)
         self._odometry = {
             f: node.create_publisher(Odometry, f"{f}/odometry", qos.result()) for f in FEET
         }
-        self._pedestrian = node.create_publisher(Odometry, "odometry", qos.result())
         self._paths = {f: FootPath(f, frames.odom, path.length, path.period) for f in FEET}
         self._path_publishers = {
             f: node.create_publisher(PathMessage, f"{f}/path", qos.latched()) for f in FEET
@@ -55,17 +62,15 @@ class Outputs:
             self._events.publish(event_messages.to_message(update.announced, update.stamp_ns))
             if any(event.kind is EventKind.RESET for event in update.announced):
                 self.clear()
-        person = update.pedestrian()
-        if person is None:
+        if update.left is None:
             return
         variance = self._rate_variance(update.stamp_ns)
         feet = [foot for foot, there in zip(FEET, present, strict=True) if there]
         for foot in feet:
             self._publish_foot(foot, update, variance)
-        fill_pedestrian(self._person, update.stamp_ns, person)
-        self._pedestrian.publish(self._person)
+        self.person.publish(update)
         if self._tf is not None:
-            self._tf.publish([self._person, *(self._feet[foot] for foot in feet)])
+            self._tf.publish([self.person.message, *(self._feet[foot] for foot in feet)])
         self.published += 1
         self.messages += 1 + len(feet)
 
@@ -80,7 +85,8 @@ class Outputs:
             self._path_publishers[foot].publish(path.message())
 
     def clear(self) -> None:
-        """Clear the paths."""
+        """Forget the track: the paths and the person."""
+        self.person.clear()
         for path in self._paths.values():
             path.clear()
 

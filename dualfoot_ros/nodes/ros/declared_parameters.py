@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any, TypeVar
 
 from rcl_interfaces.msg import (
@@ -14,14 +14,18 @@ from rcl_interfaces.msg import (
 from rclpy.node import Node
 
 from ...core import GROUPS, METHODS, Parameters, ParameterSpec, all_specs, check
-from ...settings import node_parameter_names
+from ...settings import node_parameter_names, reason_read_only
 
 Group = TypeVar("Group", bound=Parameters)
 OF_RCLPY = ("use_sim_time", "start_type_description_service")
 
 
-def declare(node: Node, specs: Iterable[ParameterSpec]) -> dict[str, Any]:
-    """Declare parameters on ``node``, read-only, and return the values they have been given.
+def declare(
+    node: Node, specs: Iterable[ParameterSpec], live: Collection[str] = ()
+) -> dict[str, Any]:
+    """Declare parameters on ``node`` and return the values they have been given.
+
+    Those named in ``live`` may change while the node runs, the others are read-only.
 
     A whole number is accepted for a real one.  Overrides that no node of the package knows are
     warned of; the effective configuration is logged once.
@@ -37,7 +41,9 @@ def declare(node: Node, specs: Iterable[ParameterSpec]) -> dict[str, Any]:
     for spec in specs:
         value = check(spec, given.get(spec.name, spec.default))
         plain = list(value) if isinstance(value, tuple) else value
-        node.declare_parameter(spec.name, plain, descriptor(spec), ignore_override=True)
+        node.declare_parameter(
+            spec.name, plain, descriptor(spec, spec.name in live), ignore_override=True
+        )
         values[spec.name] = value
     for name in given:
         _warn_if_unknown(node, name, values)
@@ -50,13 +56,17 @@ def group(cls: type[Group], values: Mapping[str, Any], prefix: str = "") -> Grou
     return cls(**{spec.name: values[prefix + spec.name] for spec in cls.specs()})
 
 
-def descriptor(spec: ParameterSpec) -> ParameterDescriptor:
-    """Return description, range and constraint of a parameter as ROS shows them."""
+def descriptor(spec: ParameterSpec, live: bool = False) -> ParameterDescriptor:
+    """Return description, range and constraint of a parameter as ROS shows them.
+
+    ``live`` says that it may change while the node runs; where not, the constraint says why.
+    """
+    fixed = f"; read-only: {reason_read_only(spec.name)}"
     described = ParameterDescriptor(
         name=spec.name,
         description=spec.description,
-        additional_constraints=spec.allowed,
-        read_only=True,
+        additional_constraints=spec.allowed + ("" if live else fixed),
+        read_only=not live,
     )
     if spec.minimum is None or spec.maximum is None:
         return described

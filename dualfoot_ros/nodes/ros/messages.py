@@ -13,7 +13,8 @@ from sensor_msgs.msg import Imu
 from ...core import (
     FloatArray,
     FootEstimate,
-    PedestrianEstimate,
+    PersonEstimate,
+    SmoothedPerson,
     quaternion_matrix,
     quaternion_yaw,
     yaw_quaternion,
@@ -21,7 +22,7 @@ from ...core import (
 
 SECOND = 1_000_000_000
 LEAST_NORM = 1e-6  # of a quaternion; a smaller one is none
-UNKNOWN_RATE_VARIANCE = 1.0e3  # (rad/s)^2; the person's turning rate is not estimated
+ROLLING_VARIANCE = 1.0e3  # (rad/s)^2; how the person rolls and pitches is not estimated
 
 
 def to_ns(time: Time) -> int:
@@ -84,17 +85,34 @@ def fill_foot(message: Odometry, stamp_ns: int, foot: FootEstimate, rate_varianc
     message.twist.covariance = _twist_covariance(covariance, rate_variance)
 
 
-def fill_pedestrian(message: Odometry, stamp_ns: int, person: PedestrianEstimate) -> None:
+def fill_person(message: Odometry, person: PersonEstimate) -> None:
     """Put the person's estimate into ``message``; the twist in the child frame."""
-    set_time(message.header.stamp, stamp_ns)
     quaternion = yaw_quaternion(person.heading)
+    to_body = quaternion_matrix(quaternion).T
+    set_time(message.header.stamp, person.stamp_ns)
     set_pose(message.pose.pose, person.position, quaternion)
     message.pose.covariance = person.pose_covariance.ravel()
-    to_body = quaternion_matrix(quaternion).T
-    linear = message.twist.twist.linear
-    linear.x, linear.y, linear.z = (to_body @ person.velocity).tolist()
+    _set_twist(message, to_body @ person.velocity, person.yaw_rate)
     covariance = to_body @ person.velocity_covariance @ to_body.T
-    message.twist.covariance = _twist_covariance(covariance, UNKNOWN_RATE_VARIANCE)
+    message.twist.covariance = _level_twist_covariance(covariance, person.yaw_rate_variance)
+
+
+def fill_smoothed(message: Odometry, person: SmoothedPerson) -> None:
+    """Put the smoothed person into ``message``; the twist in the child frame."""
+    set_time(message.header.stamp, person.stamp_ns)
+    set_pose(message.pose.pose, person.position, yaw_quaternion(person.heading))
+    message.pose.covariance = person.pose_covariance.ravel()
+    _set_twist(message, person.velocity, person.yaw_rate)
+    message.twist.covariance = _level_twist_covariance(
+        person.velocity_covariance, person.yaw_rate_variance
+    )
+
+
+def _set_twist(message: Odometry, velocity: FloatArray, yaw_rate: float) -> None:
+    """Put velocity (3,) m/s in the child frame and yaw rate (rad/s) into ``message``."""
+    linear = message.twist.twist.linear
+    linear.x, linear.y, linear.z = velocity.tolist()
+    message.twist.twist.angular.z = yaw_rate
 
 
 def pose_stamped(frame_id: str, stamp_ns: int, position: FloatArray, q: FloatArray) -> PoseStamped:
@@ -121,8 +139,26 @@ def pose_yaw(pose: Pose) -> tuple[FloatArray, float] | None:
     return position, quaternion_yaw(quaternion / norm)
 
 
+def pose_covariance(values: FloatArray) -> FloatArray | None:
+    """Return the covariance (4, 4) of x, y, z and yaw in that (36,) of a message.
+
+    None where it is all zero, which says that it is not known.
+    """
+    known = np.array(values, dtype=np.float64).reshape(6, 6)[np.ix_(*[[0, 1, 2, 5]] * 2)]
+    return known if known.any() else None
+
+
 def _twist_covariance(linear: FloatArray, rate_variance: float) -> FloatArray:
     covariance = np.zeros((6, 6))
     covariance[:3, :3] = linear
     covariance[[3, 4, 5], [3, 4, 5]] = rate_variance
+    return covariance.ravel()
+
+
+def _level_twist_covariance(linear: FloatArray, yaw_rate_variance: float) -> FloatArray:
+    """Return the covariance (36,) of a twist of which roll and pitch rate are not known."""
+    covariance = np.zeros((6, 6))
+    covariance[:3, :3] = linear
+    covariance[[3, 4], [3, 4]] = ROLLING_VARIANCE
+    covariance[5, 5] = yaw_rate_variance
     return covariance.ravel()

@@ -1,0 +1,17 @@
+"""The person between the feet: heading, floor, smooth motion, steps, and how far to trust it."""
+
+from .person import PersonEstimate, PersonTracker
+from .smoothing import SmoothedPerson, Smoother
+from .steps import Step, StepTracker
+from .trust import Trust, TrustTracker
+
+__all__ = [
+    "PersonEstimate",
+    "PersonTracker",
+    "SmoothedPerson",
+    "Smoother",
+    "Step",
+    "StepTracker",
+    "Trust",
+    "TrustTracker",
+]

@@ -1,0 +1,81 @@
+"""How long the position of a walk could be trusted, as the live node would have said."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core import EventKind, FloatArray, IntArray, Trajectory, Trust, TrustTracker
+
+EVERY_S = 1.0
+
+
+@dataclass(frozen=True)
+class TrustReport:
+    """The 95 % radius of the position over a walk, in the tracker's own frame.
+
+    Attributes
+    ----------
+    limit_m : radius up to which a position is trusted
+    radius_m : at the end of the walk
+    trusted_way_m, trusted_s : way and time until the radius passed the limit; None when it did not
+    way_left_m : at the end, straight ahead until it would; None for none
+    """
+
+    limit_m: float
+    radius_m: float
+    trusted_way_m: float | None
+    trusted_s: float | None
+    way_left_m: float | None
+
+
+def trust_series(trajectory: Trajectory, limit_m: float) -> tuple[IntArray, list[Trust]]:
+    """Return the (K,) epochs, about one a second, and what the position was worth at each."""
+    left, right = trajectory.left, trajectory.right
+    position = 0.5 * (left.position + right.position)[:, :2]
+    own = 0.5 * (left.position_covariance + right.position_covariance)
+    covariance = (own - 0.25 * trajectory.relative_covariance)[:, :2, :2]
+    variance = mean_heading_variance(trajectory)
+    headings = trajectory.of_kind(EventKind.HEADING)
+    known_ns = max((e.detected_ns for e in headings if not e.turn.joint), default=0)
+    stamps, tracker = left.stamp_ns, TrustTracker(limit_m)
+    wanted = np.arange(stamps[0], stamps[-1] + 1, round(EVERY_S * 1e9))
+    epochs: IntArray = np.unique(np.append(np.searchsorted(stamps, wanted), len(stamps) - 1))
+    found = []
+    for k in epochs.tolist():
+        stamp_ns = int(stamps[k])
+        known = stamp_ns >= known_ns
+        tracker.add(stamp_ns, position[k], covariance[k], variance[k], heading_known=known)
+        trust = tracker.result()
+        assert trust is not None
+        found.append(trust)
+    return epochs, found
+
+
+def mean_heading_variance(trajectory: Trajectory) -> FloatArray:
+    """Return the greatest variance (N,) rad^2 that the mean of both headings can have."""
+    left, right = (
+        np.sqrt(np.maximum(foot.attitude_covariance[:, 2, 2], 0.0))
+        for foot in (trajectory.left, trajectory.right)
+    )
+    variance: FloatArray = (0.5 * (left + right)) ** 2
+    return variance
+
+
+def trust_report(trajectory: Trajectory, limit_m: float) -> TrustReport:
+    """Return how long the position could be trusted."""
+    epochs, found = trust_series(trajectory, limit_m)
+    middle = 0.5 * (trajectory.left.position + trajectory.right.position)[epochs, :2]
+    way = np.append(0.0, np.cumsum(np.hypot(*np.diff(middle, axis=0).T)))
+    lost = next((k for k, trust in enumerate(found) if not trust.trusted), None)
+    start_ns = found[0].stamp_ns
+    left = found[-1].way_left_m
+    return TrustReport(
+        limit_m,
+        found[-1].radius_m,
+        None if lost is None else float(way[lost]),
+        None if lost is None else (found[lost].stamp_ns - start_ns) * 1e-9,
+        left if math.isfinite(left) else None,
+    )

@@ -9,7 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from ..core import METHODS, TrackerConfig, Trajectory, nested
-from ..inspection import Finding, check_usable, unconstrained_config, walk_findings
+from ..inspection import (
+    Finding,
+    check_usable,
+    coupled_findings,
+    unconstrained_config,
+    walk_findings,
+)
 from ..recording import Correction, Recording, Reference
 from ..settings import flat, load_config
 from .evaluate import Evaluation, evaluate
@@ -29,7 +35,8 @@ class RunOptions:
     reference : floor markers and the like, in place of those of the recording
     calibration : foot -> calibration of its sensor, applied to samples that were found usable
     allow_not_finite : leave out and count samples with nan or inf, instead of refusing them
-    check_feet : look for exchanged sensors, which tracks the recording a second time
+    check_feet : look for missed stances, exchanged sensors and the like, which tracks the
+        recording a second time
     """
 
     method: str | None = None
@@ -97,7 +104,10 @@ def run_checked(
     return replace(
         evaluation,
         findings=(*findings, *of_walk),
-        notes=(*evaluation.notes, *(f"warning: {finding.sentence}" for finding in of_walk)),
+        notes=(
+            *evaluation.notes,
+            *(f"warning: {each.sentence}" for each in (*findings, *of_walk)),
+        ),
         run_s=run_s,
     )
 
@@ -131,8 +141,10 @@ def _prepare(recording: Recording, options: RunOptions) -> Recording:
 def _walk_findings(
     recording: Recording, config: TrackerConfig, trajectory: Trajectory
 ) -> Iterator[Finding]:
-    """Yield the findings that only tracks without constraints between the feet show."""
+    """Yield the findings on the tracks, most of which need tracks without constraints."""
     if METHODS[config.method].sensors_on_one_shoe:
         return
     alone = unconstrained_config(config)
     yield from walk_findings(trajectory if config == alone else track(recording, alone))
+    if config.method != alone.method:
+        yield from coupled_findings(trajectory)

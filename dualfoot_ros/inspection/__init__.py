@@ -9,16 +9,19 @@ from .findings import (
     Key,
     Severity,
     check_usable,
+    coupled_findings,
     findings_of,
     qualities_of,
     require_usable,
     walk_findings,
 )
+from .gyro_agreement import GyroAgreement, RateError, gyro_agreement
 from .lateral_spacing import SideBySide, side_by_side, straight
 from .pressure_facts import PressureFacts, pressure_facts, wearer_words
 from .quality import Quality, quality_of
 from .stance_statistics import StanceStatistics, stance_statistics, unconstrained_config
 from .stuck_values import AXES, TRIADS, Channel, Held, Stuck, held_at_rest
+from .walk_facts import StepFacts, WalkFacts, walk_facts
 
 __all__ = [
     "AXES",
@@ -29,17 +32,23 @@ __all__ = [
     "FieldFacts",
     "Finding",
     "FindingKind",
+    "GyroAgreement",
     "Held",
     "Key",
     "PressureFacts",
     "Quality",
+    "RateError",
     "Severity",
     "SideBySide",
     "StanceStatistics",
+    "StepFacts",
     "Stuck",
+    "WalkFacts",
     "check_usable",
+    "coupled_findings",
     "field_facts",
     "findings_of",
+    "gyro_agreement",
     "held_at_rest",
     "pressure_facts",
     "qualities_of",
@@ -50,6 +59,7 @@ __all__ = [
     "stance_statistics",
     "straight",
     "unconstrained_config",
+    "walk_facts",
     "walk_findings",
     "wearer_words",
 ]

@@ -5,7 +5,7 @@ from .finding_kinds import FindingKind
 from .recording_findings import check_usable, findings_of, qualities_of, require_usable
 from .stream_findings import STUCK_SHARE
 from .unit_findings import GRAVITY_ERROR
-from .walk_findings import walk_findings
+from .walk_findings import coupled_findings, walk_findings
 
 __all__ = [
     "GRAVITY_ERROR",
@@ -15,6 +15,7 @@ __all__ = [
     "Key",
     "Severity",
     "check_usable",
+    "coupled_findings",
     "findings_of",
     "qualities_of",
     "require_usable",

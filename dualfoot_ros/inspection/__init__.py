@@ -20,6 +20,7 @@ from .lateral_spacing import SideBySide, side_by_side, straight
 from .pressure_facts import PressureFacts, pressure_facts, wearer_words
 from .quality import Quality, quality_of
 from .stance_statistics import StanceStatistics, stance_statistics, unconstrained_config
+from .stretch import Stretch, stretch_findings
 from .stuck_values import AXES, TRIADS, Channel, Held, Stuck, held_at_rest
 from .walk_facts import StepFacts, WalkFacts, walk_facts
 
@@ -42,6 +43,7 @@ __all__ = [
     "SideBySide",
     "StanceStatistics",
     "StepFacts",
+    "Stretch",
     "Stuck",
     "WalkFacts",
     "check_usable",
@@ -58,6 +60,7 @@ __all__ = [
     "side_by_side",
     "stance_statistics",
     "straight",
+    "stretch_findings",
     "unconstrained_config",
     "walk_facts",
     "walk_findings",

@@ -87,7 +87,7 @@ def gyro_agreement(series: ImuSeries) -> GyroAgreement | None:
     spans = quiet_spans(series)
     if len(spans) < LEAST_SPANS:
         return None
-    as_is = _fit(spans, np.eye(3))
+    as_is = _as_it_is(spans)
     best = as_is
     if as_is.residual > AGREES:
         others = [_fit(spans, candidate) for candidate in _nearest(spans)]
@@ -105,6 +105,15 @@ def gyro_agreement(series: ImuSeries) -> GyroAgreement | None:
         scale=best.scale,
         scale_std=best.scale_std,
     )
+
+
+def _as_it_is(spans: Spans) -> _Fit:
+    """Fit the rate as it is; not fitted where that turned its sign."""
+    fit = _fit(spans, np.eye(3))
+    if fit.scale > LEAST_SCALE:
+        return fit
+    found = _median(_residuals(spans, fit.candidate[np.newaxis], np.zeros((1, 3))))
+    return _Fit(fit.candidate, float(found[0]), 1.0, SCALE_STD)
 
 
 @dataclass(frozen=True)

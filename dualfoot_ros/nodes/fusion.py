@@ -17,6 +17,7 @@ from .inputs.calibrations import load_for_feet
 from .inputs.field_topics import FieldInput, FieldInputs
 from .inputs.foot_streams import FootStreams
 from .inputs.pressure_topics import PressureInputs
+from .inputs.stream_check import StreamCheck
 from .inputs.unit_check import UnitCheck
 from .results.fusion_report import FusionReport
 from .results.outputs import Outputs
@@ -65,12 +66,13 @@ class FusionNode(Node):
         self._calibration = load_for_feet(own.calibration)
         warn = self.get_logger().warning
         self._unit_checks = {foot: UnitCheck(warn, foot) for foot in FEET}
+        self._stream_check = StreamCheck(self.tracker)
         self._listen(own.sync == "external", values)
         self._obey(frames.odom)
         self.report = FusionReport(
             self.tracker,
             self.streams.aligner,
-            [self.streams, *self._unit_checks.values()],
+            [self.streams, *self._unit_checks.values(), self._stream_check],
             self.get_clock(),
             self.get_logger(),
             external=own.sync == "external",
@@ -123,6 +125,7 @@ class FusionNode(Node):
         if foot in self._calibration:
             values = self._calibration[foot].values(values)
         self._unit_checks[foot].add(values.tolist())
+        self._stream_check.add(foot, stamp_ns, values)
         return values
 
     def _track(self, pair: ImuPair) -> None:
@@ -133,6 +136,7 @@ class FusionNode(Node):
     def _reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self.tracker.reset()
         self.streams.reset()
+        self._stream_check.reset()
         self.outputs.clear()
         self.get_logger().info("reset: stand still until the alignment is done")
         response.success = True

@@ -190,7 +190,7 @@ def _fit(spans: Spans, candidate: FloatArray) -> _Fit:
         if largest < SMALLEST_STEP:
             break
     left = float(_median(_at(spans, candidate, x[np.newaxis]))[0])
-    std = float(np.sqrt(np.linalg.inv(information)[0, 0]))
+    std = float(np.sqrt(np.linalg.inv(information)[0, 0])) * max(1.0, left / RESIDUAL_STD)
     return _Fit(candidate, left, 1.0 + float(x[0]), std)
 
 

@@ -17,7 +17,9 @@ from ..core import STANDARD_GRAVITY, FloatArray, ImuSeries, IntArray
 WINDOW_S = 0.1  # over which the specific force is to be steady
 APART_S = 0.5  # two quiet instants are not closer than the half of it
 QUIETEST = 0.05  # share of the windows that tells what the sensor reads as gravity
-UNQUIET = 1.0  # m/s^2, scatter and distance from gravity of a window that is not used
+UNQUIET = 0.5
+"""m/s^2, scatter and distance from gravity of a window that is not used: stances have 0.1 to 0.4,
+the middle of a slow swing 0.5 to 0.9."""
 SWING = 4.0  # m/s^2 from gravity, which a swing exceeds somewhere
 SPAN_S = (0.4, 2.0)  # a gait cycle
 IRREGULAR_S = 0.05  # a span whose stamps miss more is not used
@@ -59,11 +61,7 @@ def quiet_spans(series: ImuSeries) -> Spans:
         return _gather(series, [], np.zeros((0, 3)), 1)
     means, unrest = _windows(series.specific_force, size)
     starts = _quiet_instants(unrest, max(2, round(APART_S * series.rate_hz)))
-    pairs = [
-        (a, b)
-        for a, b in itertools.pairwise(starts.tolist())
-        if _is_cycle(series, a + size // 2, b + size // 2)
-    ]
+    pairs = _cycles(series, starts, size)
     if len(pairs) > MOST_SPANS:
         chosen = np.linspace(0, len(pairs) - 1, MOST_SPANS).astype(int)
         pairs = [pairs[k] for k in chosen]
@@ -103,6 +101,15 @@ def _quiet_instants(unrest: FloatArray, apart: int) -> IntArray:
         if not found or k - found[-1] >= apart // 2:
             found.append(k)
     return np.array(found, dtype=np.int64)
+
+
+def _cycles(series: ImuSeries, starts: IntArray, size: int) -> list[tuple[int, int]]:
+    """Return the pairs of successive windows with one step between their middles."""
+    return [
+        (a, b)
+        for a, b in itertools.pairwise(starts.tolist())
+        if _is_cycle(series, a + size // 2, b + size // 2)
+    ]
 
 
 def _is_cycle(series: ImuSeries, first: int, last: int) -> bool:

@@ -11,7 +11,7 @@ from .finding_kinds import FindingKind
 from .unit_findings import FASTEST_FOOT
 
 SCALE_ERROR = 0.055  # from 1; real sensors show up to 0.04, most of it accelerometer bias
-SIGMAS = 3.0
+SIGMAS = 2.5
 MISFIT = 0.15  # median residual that nothing explains; real walks have at most 0.06
 LEAST_CYCLES = 6  # to name what nothing explains
 EVIDENCE = "the velocity and the direction of gravity that the gyro predicts from stance to stance"

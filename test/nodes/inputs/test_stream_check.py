@@ -73,7 +73,7 @@ def test_a_wrong_gyro_is_told_within_ten_seconds_of_walking(walk, factor, kind):
 
 
 def test_one_topic_for_both_feet_is_told(walk):
-    same = {foot: walk["left"] for foot in FEET}
+    same = dict.fromkeys(FEET, walk["left"])
     assert ("same_samples", "") in run(same, STANDING_S + WALKING_S)
 
 

@@ -129,13 +129,14 @@ def main() -> int:
     )
     default = Path(os.environ.get("DUALFOOT_DATA", DATA))
     parser.add_argument("data", nargs="?", type=Path, default=default, help="real walks")
-    parser.add_argument("--seeds", type=int, default=3, help="of each route (default: 3)")
+    parser.add_argument("--seeds", type=int, default=2, help="of each route (default: 2)")
+    parser.add_argument("--clean", type=int, default=4, help="seeds of each gait (default: 4)")
     arguments = parser.parse_args()
     console, notes = Console(), Console(stderr=True)
     table = Table("fault", "named")
     for name, (named, walks) in inject(arguments.seeds, notes).items():
         table.add_row(name, f"{named} of {walks}")
-    alarms, walks = clean(arguments.seeds, notes)
+    alarms, walks = clean(arguments.clean, notes)
     table.add_row("none: simulated walks with an alarm", f"{dict(alarms) or 0} in {walks}")
     if arguments.data.is_dir():
         alarms, walks, recognised = real(arguments.data, notes)

@@ -6,13 +6,11 @@ import argparse
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from ..core import AlignmentError, EvaluationError
+from ..core import DualFootError
 from .arguments import add_bag_argument, add_json_argument, add_topic_arguments, load_bag
 from .printing import print_error, print_json
 
 if TYPE_CHECKING:
-    from ..core import Trajectory
-    from ..recording import Recording
     from .info_lines import Contents
 
 HELP = "describe a bag in words: rates, gaps, standstill, units, stances"
@@ -52,7 +50,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _inspect(args: argparse.Namespace) -> Contents:
-    from ..inspection import findings_of, qualities_of, stance_statistics, walk_findings
+    from ..inspection import findings_of, qualities_of
     from ..recording import list_topics
     from .info_lines import Contents
 
@@ -62,25 +60,36 @@ def _inspect(args: argparse.Namespace) -> Contents:
         recording, list_topics(args.bag), qualities, list(findings_of(recording, qualities)), {}
     )
     if contents.usable and not args.no_stances:
-        trajectory = _track(recording)
-        if trajectory is not None:
-            contents.stances.update(stance_statistics(trajectory))
-            contents.findings.extend(walk_findings(trajectory))
+        _inspect_walk(contents)
     return contents
 
 
-def _track(recording: Recording) -> Trajectory | None:
-    """Track each foot by itself; None when the tracker finds no standstill or no pairs."""
+def _inspect_walk(contents: Contents) -> None:
+    """Track the walk as ``evaluate`` does by default; add its stances, and what it shows."""
     from rich.console import Console
 
-    from ..evaluation import pair_samples, track_samples
-    from ..inspection import unconstrained_config
+    from ..evaluation import track
+    from ..inspection import (
+        Finding,
+        FindingKind,
+        Severity,
+        coupled_findings,
+        stance_statistics,
+        unconstrained_config,
+        walk_findings,
+    )
 
     with Console(stderr=True).status("looking for stances"):
         try:
-            return track_samples(pair_samples(recording), unconstrained_config())
-        except (AlignmentError, EvaluationError):
-            return None
+            alone = track(contents.recording, unconstrained_config())
+            coupled = track(contents.recording)
+        except DualFootError as error:
+            finding = Finding(FindingKind.NOT_TRACKED, Severity.ERROR, str(error))
+            contents.findings.append(finding)
+            return
+    contents.stances.update(stance_statistics(alone))
+    contents.findings.extend(walk_findings(alone))
+    contents.findings.extend(coupled_findings(coupled))
 
 
 def _facts(contents: Contents) -> dict[str, Any]:

@@ -21,6 +21,7 @@ from ..inspection import (
     Finding,
     FindingKind,
     check_usable,
+    coupled_findings,
     start_findings,
     unconstrained_config,
     walk_findings,
@@ -44,7 +45,8 @@ class RunOptions:
     reference : floor markers and the like, in place of those of the recording
     calibration : foot -> calibration of its sensor, applied to samples that were found usable
     allow_not_finite : leave out and count samples with nan or inf, instead of refusing them
-    check_feet : look for exchanged sensors, which tracks the recording a second time
+    check_feet : look for missed stances, exchanged sensors and the like, which tracks the
+        recording a second time
     priors : gyro biases that are known before the walk, by foot
     feet : "both", or the foot that is tracked alone, "left" or "right"
     """
@@ -121,7 +123,10 @@ def run_checked(
     return replace(
         evaluation,
         findings=(*findings, *of_walk),
-        notes=(*evaluation.notes, *(f"warning: {finding.sentence}" for finding in of_walk)),
+        notes=(
+            *evaluation.notes,
+            *(f"warning: {each.sentence}" for each in (*findings, *of_walk)),
+        ),
         run_s=run_s,
     )
 
@@ -172,9 +177,11 @@ def _prepare(recording: Recording, options: RunOptions) -> Recording:
 def _walk_findings(
     recording: Recording, config: TrackerConfig, trajectory: Trajectory
 ) -> Iterator[Finding]:
-    """Yield the findings that only tracks without constraints between the feet show."""
+    """Yield the findings on the tracks, most of which need tracks without constraints."""
     both = recording.left and recording.right
     if METHODS[config.method].sensors_on_one_shoe or not both:
         return
     alone = unconstrained_config(config)
     yield from walk_findings(trajectory if config == alone else track(recording, alone))
+    if config.method != alone.method:
+        yield from coupled_findings(trajectory)

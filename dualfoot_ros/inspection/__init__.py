@@ -9,17 +9,21 @@ from .findings import (
     Key,
     Severity,
     check_usable,
+    coupled_findings,
     findings_of,
     qualities_of,
     require_usable,
     start_findings,
     walk_findings,
 )
+from .gyro_agreement import GyroAgreement, RateError, gyro_agreement
 from .lateral_spacing import SideBySide, side_by_side, straight
 from .pressure_facts import PressureFacts, pressure_facts, wearer_words
 from .quality import Quality, quality_of
 from .stance_statistics import StanceStatistics, stance_statistics, unconstrained_config
+from .stretch import Stretch, stretch_findings
 from .stuck_values import AXES, TRIADS, Channel, Held, Stuck, held_at_rest
+from .walk_facts import StepFacts, WalkFacts, walk_facts
 
 __all__ = [
     "AXES",
@@ -30,17 +34,24 @@ __all__ = [
     "FieldFacts",
     "Finding",
     "FindingKind",
+    "GyroAgreement",
     "Held",
     "Key",
     "PressureFacts",
     "Quality",
+    "RateError",
     "Severity",
     "SideBySide",
     "StanceStatistics",
+    "StepFacts",
+    "Stretch",
     "Stuck",
+    "WalkFacts",
     "check_usable",
+    "coupled_findings",
     "field_facts",
     "findings_of",
+    "gyro_agreement",
     "held_at_rest",
     "pressure_facts",
     "qualities_of",
@@ -51,7 +62,9 @@ __all__ = [
     "stance_statistics",
     "start_findings",
     "straight",
+    "stretch_findings",
     "unconstrained_config",
+    "walk_facts",
     "walk_findings",
     "wearer_words",
 ]

@@ -59,6 +59,7 @@ class SideBySide:
     jumps : number of times that the tracks were placed anew
     scatter_m : standard deviation of the lateral distance from step to step
     heading_difference_rad : of left minus right track, at the end
+    halves_agree : neither half of the walk alone says the opposite by more than its deviation
     """
 
     spacing_m: float
@@ -68,6 +69,7 @@ class SideBySide:
     jumps: int
     scatter_m: float
     heading_difference_rad: float
+    halves_agree: bool = True
 
     @property
     def sigmas(self) -> float:
@@ -77,23 +79,31 @@ class SideBySide:
 
 def side_by_side(passings: Sequence[StancePassing]) -> SideBySide:
     """Estimate the spacing from the passings of a walk; without turns it stays at 0 +- 0.3 m."""
-    filter_ = _Filter()
-    used = 0
-    for passing in passings:
-        filter_.add(passing)
-        used += 1
-        if abs(filter_.x[DELTA]) > FARTHEST_HEADING:
-            break
+    filter_, used = _run(passings)
+    sign = math.copysign(1.0, filter_.x[S])
+    halves = (_run(half)[0] for half in (passings[: used // 2], passings[used // 2 : used]))
     headings = np.unwrap([math.atan2(p.forward[1], p.forward[0]) for p in passings[:used]])
     return SideBySide(
         spacing_m=float(filter_.x[S]),
-        std_m=math.sqrt(float(filter_.p[S, S])),
+        std_m=filter_.std_m,
         passings=used,
         turned_rad=float(np.ptp(headings)) if used else 0.0,
         jumps=filter_.jumps,
         scatter_m=_scatter(passings[:used]),
         heading_difference_rad=float(filter_.x[DELTA]),
+        halves_agree=all(sign * half.x[S] > -half.std_m for half in halves),
     )
+
+
+def _run(passings: Sequence[StancePassing]) -> tuple[_Filter, int]:
+    """Return the filter after the passings, and the number of those it used."""
+    filter_, used = _Filter(), 0
+    for passing in passings:
+        filter_.add(passing)
+        used += 1
+        if abs(filter_.x[DELTA]) > FARTHEST_HEADING:
+            break
+    return filter_, used
 
 
 class _Filter:
@@ -105,6 +115,8 @@ class _Filter:
         first = [SPACING_STD_M**2, place, place, HEADING_STD**2, SCALE_STD**2, moment]
         self.p = np.diag(first)
         self.jumps = 0
+        self.nis = 0.0  # sum over the passings, two degrees of freedom each
+        self.taken = 0
         self._last: StancePassing | None = None
         self._way_m = 0.0
 
@@ -123,6 +135,8 @@ class _Filter:
         if innovation @ np.linalg.solve(s, innovation) > JUMP_NIS:
             self._place_anew(float(innovation @ innovation))
             s = h @ self.p @ h.T + noise
+        self.nis += float(innovation @ np.linalg.solve(s, innovation))
+        self.taken += 1
         gain = self.p @ h.T @ np.linalg.inv(s)
         self.x = self.x + gain @ innovation
         self.p = self.p - gain @ s @ gain.T
@@ -141,6 +155,12 @@ class _Filter:
         self.p[A, A] += place * np.eye(2)
         self.p[DELTA, DELTA] += HEADING_WANDER**2 + (HEADING_PER_TURN * turned) ** 2
         self.p[EPSILON, EPSILON] += SCALE_WANDER**2
+
+    @property
+    def std_m(self) -> float:
+        """Standard deviation of the spacing, larger where the tracks scatter more than due."""
+        excess = self.nis / (2.0 * self.taken) if self.taken else 1.0
+        return math.sqrt(float(self.p[S, S]) * max(1.0, excess))
 
     def _place_anew(self, square_m2: float) -> None:
         self.jumps += 1

@@ -8,11 +8,14 @@ import numpy as np
 
 from ..core import FloatArray, ImuSeries, IntArray
 from ..timing import AlignerConfig, clean
+from .gyro_agreement import GyroAgreement, gyro_agreement
 from .standstill import Stand, first_stand
 from .stuck_values import Stuck, find_stuck
 
 CLIP_RATE = 4.0  # rad/s and m/s^2: below this an extreme that repeats is no clipping
 CLIP_FORCE = 15.0
+CLIP_LEAST = 3  # samples at an extreme, on end or in different peaks; two may be one peak's top
+STEP_IS_LONG = 1.6  # times the usual interval: a sample is missing
 
 
 @dataclass(frozen=True)
@@ -27,14 +30,16 @@ class Quality:
     begins_anew : the stamps jump back for good somewhere (two recordings in one)
     start_s, end_s : s, first and last usable stamp
     rate_hz : Hz, from the median interval
-    jitter_s : s, 95 % of the intervals differ from the median, or from a multiple of it where
-        samples are lost, by less (intervals without gaps)
+    jitter_s : s, 95 % of the intervals differ from a multiple of the median by less (intervals
+        without gaps; a multiple where samples are missing)
+    missing : samples that intervals shorter than a gap leave room for
     gaps, longest_gap_s : intervals longer than ``Sync.max_gap``, and the longest interval
     stand : the first standstill, or None
     median_force, high_rate : median of |specific force|; 98 % quantile of |angular rate|
     peak_force, peak_rate : greatest absolute value of an axis
     clipped_force, clipped_rate : samples at the end of the range
     stuck : axes, or the whole sensor, that repeat their values
+    gyro : how the gyro agrees with the accelerometer; None without some steps
     """
 
     samples: int
@@ -48,6 +53,7 @@ class Quality:
     end_s: float
     rate_hz: float
     jitter_s: float
+    missing: int
     gaps: int
     longest_gap_s: float
     stand: Stand | None
@@ -58,6 +64,7 @@ class Quality:
     clipped_force: int
     clipped_rate: int
     stuck: tuple[Stuck, ...] = ()
+    gyro: GyroAgreement | None = None
 
     @property
     def duration_s(self) -> float:
@@ -73,7 +80,7 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
     bad = np.flatnonzero(~finite.all(axis=1))
     steps = np.diff(good.stamp_ns)
     regular = steps[steps <= config.max_gap_ns]
-    off = _unevenness(regular) if len(regular) else np.zeros(1)
+    off = _off_beat(regular) if len(regular) else np.zeros(1)
     some = len(good) > 0
     return Quality(
         samples=len(series),
@@ -87,6 +94,7 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
         end_s=int(good.stamp_ns[-1]) * 1e-9 if some else float("nan"),
         rate_hz=good.rate_hz,
         jitter_s=float(np.quantile(off, 0.95)) * 1e-9,
+        missing=_missing(regular),
         gaps=counters["gap"],
         longest_gap_s=float(steps.max()) * 1e-9 if len(steps) else 0.0,
         stand=first_stand(good),
@@ -97,30 +105,42 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
         clipped_force=clipped(good.specific_force, CLIP_FORCE),
         clipped_rate=clipped(good.angular_rate, CLIP_RATE),
         stuck=find_stuck(good),
+        gyro=gyro_agreement(good),
     )
 
 
 def clipped(values: FloatArray, least: float) -> int:
-    """Count the samples (N, 3) at the end of the range: an extreme that stays for samples on end.
+    """Count the samples (N, 3) at the end of the range: an extreme that is reached repeatedly.
 
-    A range that is not reached has an extreme that occurs once; one that is reached repeats it.
-    ``least`` is the smallest value that can be the end of a range.
+    A range that is not reached has an extreme that occurs once, or twice at the top of one peak;
+    one that is reached holds it for samples on end, or in peak after peak.  ``least`` is the
+    smallest value that can be the end of a range.
     """
     count = 0
     for column in values.T:
         for side in (column, -column):
             top = side == side.max(initial=-np.inf)
             held = top[1:] & top[:-1]
-            if held.any() and side.max() > least:
+            if top.sum() >= CLIP_LEAST and held.any() and side.max() > least:
                 count += int(top.sum())
     return count
 
 
-def _unevenness(intervals: IntArray) -> FloatArray:
-    """Return (N,) how far intervals are from whole ones: lost samples make them no less even."""
-    usual = max(1.0, float(np.median(intervals)))
-    off: FloatArray = np.abs(intervals - usual * np.maximum(1.0, np.rint(intervals / usual)))
+def _off_beat(steps: IntArray) -> FloatArray:
+    """Return the distance (N,) ns of intervals from the nearest multiple of their median."""
+    usual = float(np.median(steps))
+    count = np.maximum(1.0, np.rint(steps / usual)) if usual > 0 else 1.0
+    off: FloatArray = np.abs(steps - count * usual)
     return off
+
+
+def _missing(steps: IntArray) -> int:
+    """Return how many samples the intervals (N,) ns leave room for."""
+    if not len(steps):
+        return 0
+    usual = float(np.median(steps))
+    long = steps[steps > STEP_IS_LONG * usual]
+    return int(np.rint(long / usual).sum()) - len(long) if usual > 0 else 0
 
 
 def _quantile(vectors: FloatArray, share: float) -> float:

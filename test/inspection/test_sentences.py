@@ -49,6 +49,16 @@ def air(series, pascal):
     return {"both": PressureSeries(series.stamp_ns[::-1], np.full(len(series), pascal))}
 
 
+def jittering(series):
+    late = np.random.default_rng(0).integers(0, 6_000_000, len(series))
+    return replace(series, stamp_ns=series.stamp_ns + late)
+
+
+def with_rate_of(series, other):
+    """Return ``series`` with the rate of another foot, a quarter of a second too late."""
+    return replace(series, angular_rate=np.roll(other.angular_rate, 25, axis=0))
+
+
 def exchanged():
     made = simulate(WalkConfig(route="rectangle"), seed=1)
     return Recording(made.right, made.left)
@@ -72,8 +82,23 @@ RECORDINGS = {
     "clipping": lambda: Recording(clipping(moving(1)), moving(2)),
     "hPa": lambda: Recording(moving(1), moving(2), pressure=air(moving(1), 1013.0)),
     "uT": lambda: Recording(with_field(moving(1), 30.0), moving(2)),
+    "heavy": lambda: Recording(scaled(moving(1), 1.08), moving(2)),
+    "negated": lambda: Recording(scaled(moving(1), rate=-1.0), moving(2)),
+    "slow gyro": lambda: Recording(scaled(moving(1), rate=0.7), moving(2)),
+    "another gyro": lambda: Recording(with_rate_of(moving(1), moving(2)), moving(2)),
+    "lossy": lambda: Recording(moving(1)[np.arange(1200) % 20 != 7], moving(2)),
+    "jitter": lambda: Recording(jittering(moving(1)), moving(2)),
+    "33 Hz": lambda: Recording(moving(1)[::3], moving(2)[::3]),
+    "same": lambda: Recording(moving(1), moving(1)),
     "exchanged": exchanged,
 }
+
+
+OF_WALKS = {
+    "missed_stances", "long_stride", "no_stance", "stance_share", "unequal_ways", "mirrored_foot",
+    "feet_apart", "spacing",
+}  # fmt: skip
+"""What only a walk of both feet shows; `test_injected_faults` has these."""
 
 
 @pytest.fixture(scope="module")
@@ -114,14 +139,16 @@ def test_rewording_every_sentence_changes_nothing_that_is_decided(bags, capsys, 
 def test_these_recordings_show_all_but_a_few_kinds(bags, capsys):
     decided, _ = outcomes({name: bag for name, bag in bags.items() if name != "exchanged"}, capsys)
     seen = {kind for _, _, kinds, _, _ in decided.values() for kind, _ in kinds}
-    rare = {"late_standstill", "pressure_clock", "field_stamps", "swapped"}
+    rare = {"late_standstill", "pressure_clock", "field_stamps", "swapped", *OF_WALKS}
     assert seen | rare == kinds_made_in("inspection")
     severities = {severity for _, _, kinds, _, _ in decided.values() for _, severity in kinds}
     assert severities == set(Severity)
 
 
 def test_every_kind_of_finding_is_made_on_recordings_or_live():
-    assert kinds_made_in("inspection") | kinds_made_in("nodes") == set(FindingKind)
+    assert kinds_made_in("inspection") | kinds_made_in("nodes") | kinds_made_in("cli") == set(
+        FindingKind
+    )
 
 
 def test_an_error_outranks_a_warning_and_a_warning_outranks_nothing():

@@ -10,14 +10,20 @@ GRAVITY = 9.80665
 
 
 def moving(seed=0, *, count=1200, stand=500, start_ns=10**18, bias=(0.01, -0.02, 0.03)):
-    """Return a foot that stands for ``stand`` samples and then swings, as in walking."""
+    """Return a foot that stands for ``stand`` samples and then swings, as in walking.
+
+    Each second it pitches up and back, and moves on, in the first half second.
+    """
     rng = np.random.default_rng(seed)
     stamps = start_ns + np.arange(count) * round(1e9 / RATE_HZ)
     force = rng.normal(0.0, 0.01, (count, 3)) + np.array([0.0, 0.0, GRAVITY])
     rate = rng.normal(0.0, 0.002, (count, 3)) + bias
-    swing = np.maximum(0.0, np.sin(2 * np.pi * np.arange(count - stand) / RATE_HZ))
-    rate[stand:, 1] += 7.0 * swing
-    force[stand:, 0] += 12.0 * swing
+    second = (np.arange(count - stand) / RATE_HZ) % 1.0
+    swing = np.where(second < 0.5, np.sin(4 * np.pi * second), 0.0)
+    pitch = np.where(second < 0.5, -7.0 / (4 * np.pi) * (1.0 - np.cos(4 * np.pi * second)), 0.0)
+    rate[stand:, 1] -= 7.0 * swing
+    force[stand:, 0] += 12.0 * swing * np.cos(pitch) - GRAVITY * np.sin(pitch)
+    force[stand:, 2] += 12.0 * swing * np.sin(pitch) + GRAVITY * (np.cos(pitch) - 1.0)
     return ImuSeries(stamps, force, rate)
 
 

@@ -6,7 +6,7 @@ from .recording_findings import check_usable, findings_of, qualities_of, require
 from .start_findings import start_findings
 from .stream_findings import STUCK_SHARE
 from .unit_findings import GRAVITY_ERROR
-from .walk_findings import walk_findings
+from .walk_findings import coupled_findings, walk_findings
 
 __all__ = [
     "GRAVITY_ERROR",
@@ -16,6 +16,7 @@ __all__ = [
     "Key",
     "Severity",
     "check_usable",
+    "coupled_findings",
     "findings_of",
     "qualities_of",
     "require_usable",

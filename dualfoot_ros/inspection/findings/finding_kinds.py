@@ -30,11 +30,19 @@ class FindingKind(StrEnum):
     REFUSED_SAMPLES = "refused_samples"
     FORCE_UNIT = "force_unit"
     RATE_UNIT = "rate_unit"
+    GRAVITY = "gravity", True
+    RATE_AXES = "rate_axes", True
+    RATE_SCALE = "rate_scale", True
+    RATE_MISFIT = "rate_misfit", True
     STUCK = "stuck", True
     CLIPPING = "clipping", True
     NO_STANDSTILL = "no_standstill"
     LATE_STANDSTILL = "late_standstill"
     GAPS = "gaps"
+    MISSING_SAMPLES = "missing_samples", True
+    JITTER = "jitter", True
+    LOW_RATE = "low_rate", True
+    SAME_SAMPLES = "same_samples", True
     WRONG_RATE = "wrong_rate", True
 
     # stamps and clocks
@@ -52,7 +60,6 @@ class FindingKind(StrEnum):
     STAMPS_NOT_SHARED = "stamps_not_shared"
     ZERO_STAMPS = "zero_stamps", True
     EQUAL_STAMPS = "equal_stamps", True
-    JITTER = "jitter", True
     CLOCK_SET = "clock_set", True
     NO_PAIRS = "no_pairs", True
     STALE_FOOT = "stale_foot", True
@@ -67,10 +74,18 @@ class FindingKind(StrEnum):
     NO_FIELD = "no_field"
 
     # the walk
-    EXCHANGED_FEET = "swapped"
+    EXCHANGED_FEET = "swapped", True
     ALIGNING = "aligning"
     NO_STANCE = "no_stance"
     RESTLESS_START = "restless_start"
+    NOT_TRACKED = "not_tracked"
+    MISSED_STANCES = "missed_stances", True
+    LONG_STRIDE = "long_stride", True
+    STANCE_SHARE = "stance_share", True
+    UNEQUAL_WAYS = "unequal_ways", True
+    MIRRORED_FOOT = "mirrored_foot", True
+    FEET_APART = "feet_apart", True
+    SPACING = "spacing", True
 
     # topics
     NO_PUBLISHER = "no_publisher"

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...core import FEET
+from ...core import FEET, ImuSeries
 from ...recording import Recording, Topics
 from ..quality import Quality
 from .finding import Finding, Severity
@@ -14,6 +14,8 @@ from .finding_kinds import FindingKind
 
 RATE_RATIO = 1.5
 ALONE_S = 3.0  # at the start or the end of a recording
+SAME_SHARE = 0.5  # of the samples of a foot that the other one has too, to the last digit
+LEAST_SAME = 20
 
 
 def find_missing(recording: Recording) -> Iterator[Finding]:
@@ -45,6 +47,29 @@ def _topic_advice(recording: Recording) -> str:
         "give the right topics with --left-topic and --right-topic; the bag also has "
         f"{', '.join(others)}"
     )
+
+
+def find_same_samples(recording: Recording) -> Iterator[Finding]:
+    """Yield a finding when both feet have the samples of one sensor."""
+    left, right = recording.left, recording.right
+    if left is None or right is None or min(len(left), len(right)) < LEAST_SAME:
+        return
+    same = len(_distinct(left) & _distinct(right))
+    if same > max(LEAST_SAME, SAME_SHARE * min(len(left), len(right))):
+        yield Finding(
+            FindingKind.SAME_SAMPLES,
+            Severity.ERROR,
+            f"both feet hold the same samples: {same} of {min(len(left), len(right))} are equal "
+            "to the last digit, so one sensor is given for both",
+            "give each foot its own topic or file (--left-topic and --right-topic, --left and "
+            "--right; live, the remappings of left/imu/data_raw and right/imu/data_raw)",
+        )
+
+
+def _distinct(series: ImuSeries) -> set[bytes]:
+    """Return the values of the samples, whatever their stamps."""
+    values = np.hstack([series.specific_force, series.angular_rate])
+    return {row.tobytes() for row in values[np.isfinite(values).all(axis=1)]}
 
 
 def find_no_overlap(left: Quality, right: Quality) -> Iterator[Finding]:

@@ -14,7 +14,19 @@ from ..quality import Quality, quality_of
 from .field_findings import field_findings
 from .finding import Finding
 from .finding_kinds import FindingKind
-from .pair_findings import find_different_rates, find_missing, find_no_overlap, find_one_foot
+from .gyro_findings import (
+    find_rate_axes,
+    find_rate_degrees,
+    find_rate_misfit,
+    find_rate_scale,
+)
+from .pair_findings import (
+    find_different_rates,
+    find_missing,
+    find_no_overlap,
+    find_one_foot,
+    find_same_samples,
+)
 from .pressure_findings import pressure_findings
 from .sample_findings import (
     LEAST_SAMPLES,
@@ -26,24 +38,38 @@ from .stream_findings import (
     find_bad_stamps,
     find_clipping,
     find_gaps,
+    find_jitter,
     find_late_standstill,
+    find_low_rate,
+    find_missing_samples,
     find_no_standstill,
     find_stuck_values,
 )
-from .unit_findings import find_force_unit, find_rate_unit
+from .unit_findings import find_force_unit, find_gravity, find_rate_unit
 
 FootFindings = Callable[[str, Quality], Iterator[Finding]]
 PairFindings = Callable[[Quality, Quality], Iterator[Finding]]
 
 OF_SAMPLES: Sequence[FootFindings] = (find_not_finite, find_too_few, find_second_recording)
-OF_UNITS: Sequence[FootFindings] = (find_force_unit, find_rate_unit)
+OF_UNITS: Sequence[FootFindings] = (
+    find_force_unit,
+    find_rate_unit,
+    find_rate_degrees,
+    find_gravity,
+    find_rate_axes,
+    find_rate_scale,
+    find_rate_misfit,
+)
 OF_PAIR: Sequence[PairFindings] = (find_no_overlap, find_one_foot, find_different_rates)
 OF_STREAM: Sequence[FootFindings] = (
     find_stuck_values,
     find_no_standstill,
     find_late_standstill,
     find_gaps,
+    find_missing_samples,
     find_bad_stamps,
+    find_jitter,
+    find_low_rate,
     find_clipping,
 )
 
@@ -62,16 +88,14 @@ def check_usable(recording: Recording, *, allow_not_finite: bool = False) -> tup
     """Return the warnings about a recording that can be used.
 
     With ``allow_not_finite`` samples with nan or inf are left to be refused and counted.  Whether
-    there is a standstill is left to the tracker, whose parameters decide.
+    the samples give a start is left to the tracker, whose parameters decide.
 
     Raises
     ------
     RecordingError
         With the sentence of the first other error that :func:`findings_of` has.
     """
-    decided_later = {FindingKind.NO_STANDSTILL}
-    if allow_not_finite:
-        decided_later.add(FindingKind.NOT_FINITE)
+    decided_later = {FindingKind.NOT_FINITE} if allow_not_finite else set()
     findings = list(findings_of(recording))
     for finding in findings:
         if finding.is_error and finding.kind not in decided_later:
@@ -84,6 +108,7 @@ def findings_of(
 ) -> Iterator[Finding]:
     """Yield every finding, the gravest first; ``qualities`` spares computing them again."""
     yield from find_missing(recording)
+    yield from find_same_samples(recording)
     if qualities is None:
         qualities = qualities_of(recording)
     usable = {foot: q for foot, q in qualities.items() if q.usable >= LEAST_SAMPLES}

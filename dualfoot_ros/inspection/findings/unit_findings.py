@@ -12,6 +12,7 @@ from .finding_kinds import FindingKind
 GRAVITY_ERROR = 1.5  # m/s^2, more than any accelerometer bias
 FASTEST_FOOT = 35.0  # rad/s (2000 deg/s); no foot turns faster for long
 FORCE_UNIT_SIZES = {"g": 1.0, "mg": 1e3}  # what a sensor at rest reads in them
+GRAVITY_DOUBT = 0.5  # m/s^2, 5 %: more than the accelerometer biases of consumer sensors
 UNIT_TOLERANCE = 0.2  # of that
 NO_GRAVITY = 3.0  # m/s^2; a sensor that reads less has gravity taken out
 
@@ -26,6 +27,23 @@ def find_force_unit(foot: str, quality: Quality) -> Iterator[Finding]:
         reading = f"{foot} foot: the specific force is {gravity:.4g} {where}"
         text, remedy = _describe_force(reading, gravity)
         yield Finding(FindingKind.FORCE_UNIT, Severity.ERROR, text, remedy, foot)
+
+
+def find_gravity(foot: str, quality: Quality) -> Iterator[Finding]:
+    """Yield a finding when gravity at rest is off by more than a bias, and less than a unit."""
+    if quality.stand is None:
+        return
+    off = quality.stand.gravity - STANDARD_GRAVITY
+    if GRAVITY_DOUBT < abs(off) <= GRAVITY_ERROR:
+        yield Finding(
+            FindingKind.GRAVITY,
+            Severity.WARNING,
+            f"{foot} foot: the accelerometer reads {quality.stand.gravity:.2f} m/s^2 at rest, "
+            f"{off:+.2f} m/s^2 off",
+            "calibrate it with 'dualfoot calibrate accelerometer', or check its scale in the "
+            "driver",
+            foot,
+        )
 
 
 def _describe_force(reading: str, gravity: float) -> tuple[str, str]:

@@ -1,35 +1,60 @@
-"""Findings on the tracks of a walk: whether left and right sensor are exchanged."""
+"""All findings on the tracks of a walk."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from ...core import Trajectory, stance_passings
-from ..lateral_spacing import side_by_side
-from .finding import Finding, Severity
-from .finding_kinds import FindingKind
+from ..lateral_spacing import SideBySide, side_by_side
+from ..walk_facts import WalkFacts, walk_facts
+from .feet_findings import (
+    find_exchanged,
+    find_feet_apart,
+    find_mirrored_foot,
+    find_spacing,
+    find_unequal_ways,
+)
+from .finding import Finding
+from .stance_findings import (
+    find_long_strides,
+    find_missed_stances,
+    find_stance_share,
+    find_time_without_stance,
+)
 
-SIGMAS = 3.0
 LEAST_PASSINGS = 8
+
+OF_WALK: Sequence[Callable[[WalkFacts], Iterator[Finding]]] = (
+    find_missed_stances,
+    find_long_strides,
+    find_time_without_stance,
+    find_stance_share,
+    find_unequal_ways,
+    find_mirrored_foot,
+)
+OF_PASSINGS: Sequence[Callable[[WalkFacts, SideBySide], Iterator[Finding]]] = (
+    find_exchanged,
+    find_spacing,
+)
 
 
 def walk_findings(trajectory: Trajectory) -> Iterator[Finding]:
-    """Yield the findings on a walk tracked with :func:`~.stance_statistics.free_config`.
+    """Yield the findings on a walk tracked with :func:`~.stance_statistics.unconstrained_config`.
 
     Which foot is on the left is observable in turns only, where the outer foot makes the longer
-    way.  Without turns, or where the tracks have drifted too far, there is no finding.
+    way.  Without turns, or where the tracks have drifted too far, there is no finding on it.
     """
+    facts = walk_facts(trajectory)
+    for find in OF_WALK:
+        yield from find(facts)
     passings = stance_passings(trajectory)
     if len(passings) < LEAST_PASSINGS:
         return
     feet = side_by_side(passings)
-    if feet.sigmas < -SIGMAS:
-        yield Finding(
-            FindingKind.EXCHANGED_FEET,
-            Severity.WARNING,
-            f"left and right seem to be exchanged: in the turns of this walk "
-            f"({math.degrees(feet.turned_rad):.0f} degrees) the left foot goes "
-            f"{-feet.spacing_m:.2f} +- {feet.std_m:.2f} m on the right of the right one",
-            "exchange --left-topic and --right-topic, or the files on import",
-        )
+    for find_sideways in OF_PASSINGS:
+        yield from find_sideways(facts, feet)
+
+
+def coupled_findings(trajectory: Trajectory) -> Iterator[Finding]:
+    """Yield the findings on a walk whose tracks a method holds together."""
+    yield from find_feet_apart(walk_facts(trajectory))

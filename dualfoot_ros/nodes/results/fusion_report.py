@@ -16,7 +16,7 @@ from ..ros.status import Described, Status
 from . import event_messages
 
 LOGGED = (EventKind.ALIGNED, EventKind.HEADING, EventKind.RESET)
-NO_STANCE_NS = 5_000_000_000
+NO_STANCE_NS = 2_000_000_000
 NOT_SHARED = 0.5  # of the pairs are interpolated; of lost samples that are filled it is less
 NIS_MEMORY = 0.99  # of the running mean, a ZUPT of 3 dimensions
 
@@ -122,7 +122,7 @@ class FusionReport:
         for foot in FEET:
             status.values[f"{foot} stance"] = self._stance[foot]
             if self._stamp_ns - self._last_stance_ns[foot] > NO_STANCE_NS:
-                text = f"no stance of the {foot} foot for 5 s of walking: check stance.threshold"
+                text = f"no stance of the {foot} foot for 2 s of walking: check stance.threshold"
                 kind = FindingKind.NO_STANCE
                 status.note(Finding(kind, Severity.WARNING, text, about=foot))
 

@@ -106,12 +106,12 @@ def test_interpolated_pairs_are_a_warning_where_another_node_makes_the_pairs(ext
     assert fusion.kinds() == ([FindingKind.STAMPS_NOT_SHARED] if external else [])
 
 
-def test_five_seconds_of_walking_without_a_stance_are_a_warning_for_each_foot(fusion):
+def test_two_seconds_of_walking_without_a_stance_are_a_warning_for_each_foot(fusion):
     fusion.report.add(Update(10**12, "standing"))
-    for second in range(6):
+    for second in range(3):
         fusion.report.add(Update(10**12 + second * 10**9, "walking"))
     assert fusion.kinds() == []
-    fusion.report.add(Update(10**12 + 6 * 10**9, "walking"))
+    fusion.report.add(Update(10**12 + 3 * 10**9, "walking"))
     assert fusion.kinds() == [FindingKind.NO_STANCE] * 2
 
 

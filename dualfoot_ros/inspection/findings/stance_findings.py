@@ -1,0 +1,88 @@
+"""Findings on the stances of a walk: missed, or impossible."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..walk_facts import WalkFacts
+from .finding import Finding, Severity
+from .finding_kinds import FindingKind
+
+LONGEST_STRIDE_M = 2.2
+TWICE = 2.0  # times the median stride, from LEAST_DOUBLE_M on
+LEAST_DOUBLE_M = 1.5  # a shorter stride may follow shuffling
+LEAST_MISSED = 2
+UNEQUAL = 2  # steps by which the feet may differ, or a share of them
+UNEQUAL_SHARE = 0.05
+WITHOUT_STANCE_S = 2.0
+UNUSUAL = 1.5  # times the usual swing
+MOVING_SHARE = 0.75
+LEAST_STRIDES = 4
+REMEDY = (
+    "try a higher stance.threshold, or a shorter stance.min_stance; the track is wrong from there "
+    "on"
+)
+
+
+def find_missed_stances(facts: WalkFacts) -> Iterator[Finding]:
+    """Yield a finding for each foot that has fewer stances than the other one makes it have."""
+    strides = {foot: steps.strides for foot, steps in facts.feet.items()}
+    fewer = min(strides, key=lambda foot: strides[foot])
+    for foot, steps in facts.feet.items():
+        short = max(strides.values()) - steps.strides if foot == fewer else 0
+        unequal = short > max(UNEQUAL, UNEQUAL_SHARE * max(strides.values()))
+        missed = max(steps.missed, short if unequal else 0)
+        if missed >= LEAST_MISSED:
+            yield Finding(
+                FindingKind.MISSED_STANCES,
+                Severity.WARNING,
+                f"{foot} foot: about {missed} stances are missed (left {strides['left']} and "
+                f"right {strides['right']} steps)",
+                REMEDY,
+                foot,
+            )
+
+
+def find_long_strides(facts: WalkFacts) -> Iterator[Finding]:
+    """Yield a finding for each foot with a stride that nobody makes."""
+    for foot, steps in facts.feet.items():
+        double = max(LEAST_DOUBLE_M, TWICE * steps.median_stride_m)
+        if steps.strides and steps.longest_stride_m > min(LONGEST_STRIDE_M, double):
+            yield Finding(
+                FindingKind.LONG_STRIDE,
+                Severity.WARNING,
+                f"{foot} foot: a stride of {steps.longest_stride_m:.2f} m, "
+                f"{steps.longest_at_s:.1f} s after the start of the track, where "
+                f"{steps.median_stride_m:.2f} m are usual, so a stance is missed in it",
+                REMEDY,
+                foot,
+            )
+
+
+def find_time_without_stance(facts: WalkFacts) -> Iterator[Finding]:
+    """Yield a finding for each foot that has no stance for seconds of walking."""
+    for foot, steps in facts.feet.items():
+        unusual = steps.without_stance_s > UNUSUAL * steps.usual_swing_s
+        if steps.without_stance_s > WITHOUT_STANCE_S and unusual:
+            yield Finding(
+                FindingKind.NO_STANCE,
+                Severity.WARNING,
+                f"{foot} foot: no stance for {steps.without_stance_s:.1f} s, from "
+                f"{steps.without_stance_at_s:.1f} s after the start of the track on",
+                REMEDY,
+                foot,
+            )
+
+
+def find_stance_share(facts: WalkFacts) -> Iterator[Finding]:
+    """Yield a finding for each foot that seems to stand while it moves."""
+    for foot, steps in facts.feet.items():
+        if steps.strides >= LEAST_STRIDES and steps.moving_share > MOVING_SHARE:
+            yield Finding(
+                FindingKind.STANCE_SHARE,
+                Severity.WARNING,
+                f"{foot} foot: it stands in {steps.moving_share:.0%} of each step, so swings are "
+                "taken for stances",
+                "try a lower stance.threshold, and check the unit of the angular rate",
+                foot,
+            )

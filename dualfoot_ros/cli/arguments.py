@@ -71,6 +71,17 @@ def add_set_argument(parser: Arguments, about: str) -> None:
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help=about)
 
 
+def add_calibration_argument(parser: Arguments) -> None:
+    """Add ``--calibration``, whose files :func:`dualfoot_ros.calibration.for_feet` reads."""
+    parser.add_argument(
+        "--calibration",
+        metavar="FILE",
+        action="append",
+        default=[],
+        help="calibration file of 'dualfoot calibrate', or left=FILE, right=FILE; may be repeated",
+    )
+
+
 def add_align_argument(parser: Arguments, about: str) -> None:
     """Add ``--align``."""
     parser.add_argument(

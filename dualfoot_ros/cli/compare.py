@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from .arguments import (
     BAG,
     add_align_argument,
+    add_calibration_argument,
     add_config_arguments,
     add_jobs_argument,
     add_json_argument,
@@ -66,6 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=1,
         help="walk every recording N times in a row, as Ma and Särkkä 2023 (default: 1)",
     )
+    add_calibration_argument(parser)
     add_align_argument(parser, "how to fix the frame to truth or markers")
     add_jobs_argument(parser)
     _add_output(parser)
@@ -109,12 +111,19 @@ def _cases(args: argparse.Namespace) -> list[Case]:
 
 
 def _jobs(args: argparse.Namespace, cases: Sequence[Case]) -> list[Job]:
+    from ..calibration import for_feet
     from ..evaluation import Align, Options
     from ..evaluation.batch import Job
 
     bags = list(dict.fromkeys(str(Path(bag)) for bag in args.bag))
     options = Options(Align(args.align))
-    rest = args.repeat, args.left_topic, args.right_topic, args.allow_nan
+    rest = (
+        args.repeat,
+        args.left_topic,
+        args.right_topic,
+        args.allow_nan,
+        for_feet(args.calibration),
+    )
     return [Job(bag, case, options, *rest) for bag in bags for case in cases]
 
 

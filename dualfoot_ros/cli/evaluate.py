@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .arguments import (
     add_align_argument,
     add_bag_argument,
+    add_calibration_argument,
     add_config_arguments,
     add_json_argument,
     add_method_argument,
@@ -20,6 +22,7 @@ from .arguments import (
     tracker_config,
 )
 from .printing import print_json, print_paths, table_console
+from .self_calibration import self_calibration
 
 if TYPE_CHECKING:
     from ..evaluation import Evaluation, RunOptions
@@ -38,6 +41,7 @@ examples:
   dualfoot evaluate walk --align umeyama4           best fit over the whole walk
   dualfoot evaluate walk --calibration both.yaml    correct the samples first
   dualfoot evaluate walk --calibration left=l.yaml --calibration right=r.yaml
+  dualfoot evaluate walk --self-calibrate           gyro matrices from the walk itself
 """
 
 
@@ -46,12 +50,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_bag_argument(parser)
     add_method_argument(parser)
     add_config_arguments(parser)
+    add_calibration_argument(parser)
     parser.add_argument(
-        "--calibration",
-        metavar="FILE",
-        action="append",
-        default=[],
-        help="calibration file of 'dualfoot calibrate', or left=FILE, right=FILE; may be repeated",
+        "--self-calibrate",
+        action="store_true",
+        help="fit the gyro matrices on the walk itself ('dualfoot calibrate walk') and use them",
     )
     add_report_arguments(parser)
     add_json_argument(parser)
@@ -96,14 +99,19 @@ def run(args: argparse.Namespace) -> int:
     if args.output is not None:
         check_directory(args.output)
     calibration = for_feet(args.calibration)
-    options = _options(args, calibration)
     config = tracker_config(args)
-    result = evaluation.run(load_bag(args.bag, args), config, options)
+    recording = load_bag(args.bag, args)
+    notes: tuple[str, ...] = ()
+    if args.self_calibrate:
+        calibration, notes = self_calibration(args, recording, config, calibration)
+    result = evaluation.run(recording, config, _options(args, calibration))
+    result = replace(result, notes=(*notes, *result.notes))
     metrics = {
         "bag": args.bag,
         **result.to_dict(),
         "parameters": config.to_mapping(),
         "calibration": {foot: list(c.triads()) for foot, c in calibration.items()},
+        "self_calibrated": args.self_calibrate,
     }
     paths = [] if args.output is None else _write(args, result, metrics)
     _print(args, result, {**metrics, "files": [str(path) for path in paths]}, paths)

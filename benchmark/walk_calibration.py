@@ -26,6 +26,7 @@ FOLDERS = ("figure_eight", "rectangle_ccw", "rectangle_cw", "running_track")
 METHODS = ("zupt", "spacing_vector")
 EXTRAS: Mapping[str, Mapping[str, object]] = {
     "": {},
+    "straight_lines": {"aids.straight_lines": True},
     "magnetic_heading": {"aids.magnetic_heading": True},
 }
 Walks = dict[str, Recording]

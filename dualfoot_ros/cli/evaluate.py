@@ -16,6 +16,7 @@ from .arguments import (
     add_json_argument,
     add_method_argument,
     add_no_plots_argument,
+    add_paper_noise_argument,
     add_report_arguments,
     add_usable_arguments,
     load_bag,
@@ -41,6 +42,7 @@ examples:
   dualfoot evaluate walk --align umeyama4           best fit over the whole walk
   dualfoot evaluate walk --calibration both.yaml    correct the samples first
   dualfoot evaluate walk --calibration left=l.yaml --calibration right=r.yaml
+  dualfoot evaluate walk --config liu2023 --paper-noise    with the paper's own noise and c0
   dualfoot evaluate walk --self-calibrate           gyro matrices from the walk itself
 """
 
@@ -50,6 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_bag_argument(parser)
     add_method_argument(parser)
     add_config_arguments(parser)
+    add_paper_noise_argument(parser)
     add_calibration_argument(parser)
     parser.add_argument(
         "--self-calibrate",

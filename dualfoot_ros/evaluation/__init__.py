@@ -4,6 +4,7 @@ from ..core import EvaluationError
 from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options
 from .frames.yaw_transform import Align, Pair
+from .notes import config_notes
 from .plain import plain
 from .published import published_trajectory
 from .reports.demo_table import Report, demo_report
@@ -18,6 +19,7 @@ __all__ = [
     "Pair",
     "Report",
     "RunOptions",
+    "config_notes",
     "demo_report",
     "evaluate",
     "pair_samples",

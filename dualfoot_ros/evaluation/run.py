@@ -14,6 +14,7 @@ from ..recording import Correction, Recording, Reference
 from ..settings import flat, load_config
 from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options
+from .notes import config_notes
 from .track import track, truth_of
 
 
@@ -97,7 +98,11 @@ def run_checked(
     return replace(
         evaluation,
         findings=(*findings, *of_walk),
-        notes=(*evaluation.notes, *(f"warning: {finding.sentence}" for finding in of_walk)),
+        notes=(
+            *evaluation.notes,
+            *config_notes(config),
+            *(f"warning: {finding.sentence}" for finding in of_walk),
+        ),
         run_s=run_s,
     )
 

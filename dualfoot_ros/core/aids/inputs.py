@@ -18,6 +18,7 @@ from .field import FieldLog
 from .flat_floor import FlatFloor
 from .magnetic_heading import MagneticHeading
 from .pressure import PressureLog
+from .straight_lines import StraightLines
 
 Vector = Sequence[float] | FloatArray
 
@@ -39,6 +40,8 @@ class AidInputs:
             found.append(Barometer(config, self._pressure, counters))
         if config.magnetic_heading:
             found.append(MagneticHeading(config, self._fields, counters))
+        if config.straight_lines:
+            found.append(StraightLines(config))
         return found
 
     def take_pressure(self, worn: str, stamp_ns: int, pascal: float) -> Refusal | None:

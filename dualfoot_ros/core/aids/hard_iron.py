@@ -22,7 +22,7 @@ IRON_STD_UT = 1.0  # prior
 DRIFT_STD = 1.0e-3  # rad/s
 EARTH_STD_UT = 100.0
 NOISE_UT = 4.0  # of a stance: attitude, and a field that varies along the way
-KNOWN_UT = 0.6  # standard deviation of the level part, below which iron counts as known
+KNOWN_UT = 0.4  # standard deviation of the level part, below which iron counts as known
 FIELD, IRON, DRIFT = slice(0, 3), slice(3, 6), 6
 
 

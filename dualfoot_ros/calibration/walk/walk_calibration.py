@@ -22,6 +22,7 @@ from .observability import Turns, advice, turns
 from .self_test import SelfTest, self_test
 
 MISALIGNMENT = 0.003  # rad, of an accelerometer whose misalignment is not calibrated
+SYSTEMATIC = 0.0015  # of an element, by what the model leaves out; seen on simulated sensors
 NamedRecording = tuple[str, Recording]
 Progress = Callable[[float], None]
 
@@ -51,8 +52,8 @@ class FootResult:
 
     @property
     def elements_std(self) -> FloatArray:
-        """Standard deviations (6,) of the elements, that of the accelerometer's axes included."""
-        of_axes = np.array([0.0] * 3 + [self.misalignment] * 3)
+        """Standard deviations (6,) of the elements, those of axes and model included."""
+        of_axes = np.hypot(SYSTEMATIC, [0.0] * 3 + [self.misalignment] * 3)
         stds: FloatArray = np.hypot(self.fit.elements_std, of_axes)
         return stds
 

@@ -41,16 +41,10 @@ def test_simulated_sensors_are_recovered_within_the_stated_uncertainty(fits):
     assert 0.2 < np.mean(nees) < 2.5, nees
 
 
-def test_what_is_well_observed_comes_out_better_than_it_was(fits):
-    before, after = [], []
-    for (seed, foot), fit in fits.items():
-        true = true_elements(seed, foot)
-        values, vectors = np.linalg.eigh(fit.covariance[:6, :6])
-        seen = vectors[:, :2]
-        assert np.sqrt(values[1]) < 0.5 * fit.noise.matrix
-        before.append(true @ seen)
-        after.append((fit.elements - true) @ seen)
-    assert np.std(after) < 0.75 * np.std(before)
+def test_scale_factors_come_out_better_than_they_were(fits):
+    true = np.array([true_elements(*sensor)[:3] for sensor in fits])
+    left = np.array([fit.elements[:3] for fit in fits.values()]) - true
+    assert np.sqrt((left**2).mean()) < 0.85 * np.sqrt((true**2).mean())
 
 
 def test_a_known_matrix_put_on_the_samples_comes_back(fits):

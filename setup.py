@@ -25,13 +25,17 @@ setup(
     python_requires=">=3.11",
     packages=[*find_packages(include=[NAME, f"{NAME}.*"]), f"{NAME}.config"],
     package_dir={f"{NAME}.config": "config"},
-    package_data={f"{NAME}.config": ["*.yaml", "nodes/*.yaml", "rviz/*.rviz"], NAME: ["py.typed"]},
+    package_data={
+        f"{NAME}.config": ["*.yaml", "nodes/*.yaml", "paper_noise/*.yaml", "rviz/*.rviz"],
+        NAME: ["py.typed"],
+    },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
         (f"share/{NAME}", ["package.xml"]),
         (f"share/{NAME}/config", files("config", "*.yaml")),
         (f"share/{NAME}/config/nodes", files("config/nodes", "*.yaml")),
         (f"share/{NAME}/config/rviz", files("config/rviz", "*.rviz")),
+        (f"share/{NAME}/config/paper_noise", files("config/paper_noise", "*.yaml")),
         (f"share/{NAME}/launch", files("launch", "*.launch.py")),
     ],
     zip_safe=False,

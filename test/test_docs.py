@@ -26,7 +26,15 @@ TWO_SCREENS = 80  # lines
 SUFFIXES = "py|md|yaml|rst|toml|c|h"
 # Files that a reader is told to write, or gets.
 OWN_FILES = {
-    *("mine.yaml", "both.yaml", "gait.yaml", "noise.yaml", "markers.yaml", "reference.yaml"),
+    *(
+        "mine.yaml",
+        "both.yaml",
+        "gait.yaml",
+        "noise.yaml",
+        "pivot.yaml",
+        "markers.yaml",
+        "reference.yaml",
+    ),
     *("L.yaml", "R.yaml", "pyproject.toml", "height_method.py"),
 }
 HIDDEN = (".git", ".venv")

@@ -1,4 +1,4 @@
-"""Calibration of sensors and gait from recordings made for it, and its files."""
+"""Calibration of sensors and gait from recordings made for it, or from walks, and its files."""
 
 from ..core import CalibrationError
 from .accelerometer import MODELS, AccelerometerFit, fit_accelerometer, rms, why_not
@@ -13,29 +13,50 @@ from .soundness import doubts
 from .sources import load_sources
 from .spacing import SpacingFit, fit_spacing
 from .static import Segment, segments_of, still_spans
+from .walk import (
+    ELEMENTS,
+    MISALIGNMENT,
+    FootResult,
+    PivotFit,
+    WalkCalibration,
+    calibrate_walks,
+    fit_pivot,
+    median_explained,
+    median_of,
+    weakest,
+)
 
 __all__ = [
     "ANY",
+    "ELEMENTS",
+    "MISALIGNMENT",
     "MODELS",
     "AccelerometerFit",
     "BiasMemory",
     "Calibration",
     "CalibrationError",
     "CrossValidation",
+    "FootResult",
     "GyroFit",
+    "PivotFit",
     "RememberedStand",
     "Segment",
     "SensorCalibration",
     "SpacingFit",
     "Triad",
+    "WalkCalibration",
+    "calibrate_walks",
     "calibrated",
     "cross_validate",
     "doubts",
     "fit_accelerometer",
     "fit_gyro",
+    "fit_pivot",
     "fit_spacing",
     "for_feet",
     "load_sources",
+    "median_explained",
+    "median_of",
     "parameter_text",
     "rms",
     "segments_of",
@@ -43,5 +64,6 @@ __all__ = [
     "stands_in",
     "stands_of",
     "still_spans",
+    "weakest",
     "why_not",
 ]

@@ -66,9 +66,29 @@ def add_config_arguments(parser: Arguments, remark: str = "") -> None:
     )
 
 
+def add_paper_noise_argument(parser: Arguments) -> None:
+    """Add ``--paper-noise`` of the verbs that run presets."""
+    parser.add_argument(
+        "--paper-noise",
+        action="store_true",
+        help="give presets of a paper its noise, bias and c0 too, in place of the defaults",
+    )
+
+
 def add_set_argument(parser: Arguments, about: str) -> None:
     """Add ``--set``, which :func:`settings` reads."""
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help=about)
+
+
+def add_calibration_argument(parser: Arguments) -> None:
+    """Add ``--calibration``, whose files :func:`dualfoot_ros.calibration.for_feet` reads."""
+    parser.add_argument(
+        "--calibration",
+        metavar="FILE",
+        action="append",
+        default=[],
+        help="calibration file of 'dualfoot calibrate', or left=FILE, right=FILE; may be repeated",
+    )
 
 
 def add_align_argument(parser: Arguments, about: str) -> None:
@@ -161,14 +181,16 @@ def tracker_config(args: argparse.Namespace) -> TrackerConfig:
     Raises
     ------
     ConfigError
-        When a preset, a file or a parameter is not known or out of its range.
+        When a preset, a file or a parameter is not known or out of its range, or the noise of a
+        paper is asked for without a preset of one.
     """
     from ..settings import load_config
 
     overrides = settings(args)
     if getattr(args, "method", None) is not None:
         overrides["method"] = args.method
-    return load_config(args.config, overrides)
+    paper_noise = getattr(args, "paper_noise", False)
+    return load_config(args.config, overrides, paper_noise=paper_noise)
 
 
 def settings(args: argparse.Namespace) -> dict[str, Any]:

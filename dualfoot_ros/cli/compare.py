@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Any
 from .arguments import (
     BAG,
     add_align_argument,
+    add_calibration_argument,
     add_config_arguments,
     add_jobs_argument,
     add_json_argument,
     add_no_plots_argument,
+    add_paper_noise_argument,
     add_report_arguments,
     add_usable_arguments,
     check_counts,
@@ -52,6 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="methods and presets, separated by commas (default: all methods but rigid_pair)",
     )
     add_config_arguments(parser, ", of all methods")
+    add_paper_noise_argument(parser)
     parser.add_argument(
         "--sweep",
         metavar="NAME=A:B:STEP",
@@ -66,6 +69,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=1,
         help="walk every recording N times in a row, as Ma and Särkkä 2023 (default: 1)",
     )
+    add_calibration_argument(parser)
     add_align_argument(parser, "how to fix the frame to truth or markers")
     add_jobs_argument(parser)
     _add_output(parser)
@@ -97,24 +101,43 @@ def run(args: argparse.Namespace) -> int:
     rows = [flat(entry) for entry in entries]
     document = _document(entries, failures)
     paths = [] if args.output is None else _write(args, entries, rows, document)
-    _print(args, rows, document, paths)
+    _print(args, rows, document, paths, _notes(entries))
     return 1 if failures else 0
+
+
+def _notes(entries: Sequence[Entry]) -> list[str]:
+    """Return the sentences on the configurations, each with the cases that it is about."""
+    from ..evaluation import config_notes
+
+    cases: dict[str, list[str]] = {}
+    for case in {entry.case.label: entry.case for entry in entries}.values():
+        for note in config_notes(case.config):
+            cases.setdefault(note, []).append(case.label)
+    return [f"{', '.join(labels)}: {note}" for note, labels in cases.items()]
 
 
 def _cases(args: argparse.Namespace) -> list[Case]:
     from ..evaluation.batch import Sweep, case_names, make_cases
 
     sweeps = [Sweep.parse(text) for text in args.sweep]
-    return make_cases(case_names(args.methods), args.config, settings(args), sweeps)
+    names = case_names(args.methods)
+    return make_cases(names, args.config, settings(args), sweeps, paper_noise=args.paper_noise)
 
 
 def _jobs(args: argparse.Namespace, cases: Sequence[Case]) -> list[Job]:
+    from ..calibration import for_feet
     from ..evaluation import Align, Options
     from ..evaluation.batch import Job
 
     bags = list(dict.fromkeys(str(Path(bag)) for bag in args.bag))
     options = Options(Align(args.align))
-    rest = args.repeat, args.left_topic, args.right_topic, args.allow_nan
+    rest = (
+        args.repeat,
+        args.left_topic,
+        args.right_topic,
+        args.allow_nan,
+        for_feet(args.calibration),
+    )
     return [Job(bag, case, options, *rest) for bag in bags for case in cases]
 
 
@@ -194,6 +217,7 @@ def _print(
     rows: list[dict[str, Any]],
     document: dict[str, Any],
     paths: list[Path],
+    notes: Sequence[str],
 ) -> None:
     from ..evaluation.reports import csv_text, tables
 
@@ -206,4 +230,6 @@ def _print(
     console = table_console(160)
     for table in tables(rows):
         console.print(table)
+    for note in notes:
+        console.print(note)
     print_paths(paths)

@@ -11,16 +11,19 @@ from typing import TYPE_CHECKING, Any
 from .arguments import (
     add_align_argument,
     add_bag_argument,
+    add_calibration_argument,
     add_config_arguments,
     add_json_argument,
     add_method_argument,
     add_no_plots_argument,
+    add_paper_noise_argument,
     add_report_arguments,
     add_usable_arguments,
     load_bag,
     tracker_config,
 )
 from .printing import print_json, print_paths, table_console
+from .self_calibration import self_calibration
 
 if TYPE_CHECKING:
     from ..calibration import BiasMemory
@@ -41,6 +44,8 @@ examples:
   dualfoot evaluate walk --bias-memory shoes.yaml   use and keep the gyro biases of these sensors
   dualfoot evaluate walk --calibration both.yaml    correct the samples first
   dualfoot evaluate walk --calibration left=l.yaml --calibration right=r.yaml
+  dualfoot evaluate walk --config liu2023 --paper-noise    with the paper's own noise and c0
+  dualfoot evaluate walk --self-calibrate           gyro matrices from the walk itself
 """
 
 
@@ -49,12 +54,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_bag_argument(parser)
     add_method_argument(parser)
     add_config_arguments(parser)
+    add_paper_noise_argument(parser)
+    add_calibration_argument(parser)
     parser.add_argument(
-        "--calibration",
-        metavar="FILE",
-        action="append",
-        default=[],
-        help="calibration file of 'dualfoot calibrate', or left=FILE, right=FILE; may be repeated",
+        "--self-calibrate",
+        action="store_true",
+        help="fit the gyro matrices on the walk itself ('dualfoot calibrate walk') and use them",
     )
     parser.add_argument(
         "--bias-memory",
@@ -112,14 +117,20 @@ def run(args: argparse.Namespace) -> int:
         check_directory(args.output)
     calibration = for_feet(args.calibration)
     memory = BiasMemory() if args.bias_memory is None else BiasMemory.load(args.bias_memory)
-    options = replace(_options(args, calibration), priors=memory.priors())
     config = tracker_config(args)
-    result = evaluation.run(load_bag(args.bag, args), config, options)
+    recording = load_bag(args.bag, args)
+    notes: tuple[str, ...] = ()
+    if args.self_calibrate:
+        calibration, notes = self_calibration(args, recording, config, calibration)
+    options = replace(_options(args, calibration), priors=memory.priors())
+    result = evaluation.run(recording, config, options)
+    result = replace(result, notes=(*notes, *result.notes))
     metrics = {
         "bag": args.bag,
         **result.to_dict(),
         "parameters": config.to_mapping(),
         "calibration": {foot: list(c.triads()) for foot, c in calibration.items()},
+        "self_calibrated": args.self_calibrate,
     }
     paths = [] if args.output is None else _write(args, result, metrics)
     _remember(args.bias_memory, memory, result)

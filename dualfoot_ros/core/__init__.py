@@ -37,7 +37,7 @@ from .results.passings import (
     stance_passings,
     swing_passings,
 )
-from .results.payloads import Details, DistanceLimit, Passing, Reason, YawTurn
+from .results.payloads import Details, DistanceLimit, Levelled, Passing, Reason, YawTurn
 from .results.rows import clean_stance, to_trajectory, turn_rows
 from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stance_middles
 from .results.update import FootEstimate, PedestrianEstimate, Update
@@ -46,6 +46,7 @@ from .rotation import (
     mean_angle,
     quaternion_matrix,
     quaternion_yaw,
+    skew,
     turn_quaternions,
     yaw_quaternion,
 )
@@ -107,6 +108,7 @@ __all__ = [
     "Increments",
     "IncrementsConfig",
     "IntArray",
+    "Levelled",
     "Matrix",
     "MountingConfig",
     "NoiseConfig",
@@ -154,6 +156,7 @@ __all__ = [
     "quaternion_matrix",
     "quaternion_yaw",
     "refusal_of",
+    "skew",
     "stance_bounds",
     "stance_middles",
     "stance_passings",

@@ -291,6 +291,13 @@ class AidsConfig(Parameters):
         minimum=0.01,
         maximum=3.0,
     )
+    magnetic_iron_std: float = parameter(
+        0.2,
+        "the same once the walk has turned and the iron is learnt",
+        unit="rad",
+        minimum=0.01,
+        maximum=3.0,
+    )
     magnetic_size: float = parameter(
         0.06,
         "share by which the field's size may differ from the reference's",
@@ -306,4 +313,34 @@ class AidsConfig(Parameters):
     )
     magnetic_stances: int = parameter(
         4, "stances in a row that must agree to be the reference", minimum=2, maximum=100
+    )
+    straight_lines: bool = parameter(
+        False, "heading from straight walking: straights keep their direction and are parallel"
+    )
+    straight_strides: int = parameter(
+        12, "strides of a foot in a row that make a straight", minimum=4, maximum=100
+    )
+    straight_bend: float = parameter(
+        0.026,
+        "by how much the halves of a straight may differ in direction",
+        unit="rad",
+        minimum=1e-3,
+        maximum=0.5,
+    )
+    straight_gate: float = parameter(
+        0.087,
+        "by how much a straight may differ from one to which it is parallel",
+        unit="rad",
+        minimum=1e-3,
+        maximum=0.7,
+    )
+    straight_std: float = parameter(
+        0.05, "error of the direction of a straight", unit="rad", minimum=1e-3, maximum=1.0
+    )
+    straight_clip: float = parameter(
+        0.0011,
+        "by how much four strides on a straight turn the heading at most",
+        unit="rad",
+        minimum=1e-4,
+        maximum=1.0,
     )

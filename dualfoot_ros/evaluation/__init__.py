@@ -4,6 +4,7 @@ from ..core import EvaluationError
 from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options
 from .frames.yaw_transform import Align, Pair
+from .notes import config_notes
 from .plain import plain
 from .published import published_trajectory
 from .reports.demo_table import Report, demo_report
@@ -19,6 +20,7 @@ __all__ = [
     "Report",
     "RunOptions",
     "as_live",
+    "config_notes",
     "demo_report",
     "evaluate",
     "pair_samples",

@@ -175,10 +175,15 @@ def evaluate(
         notes=(
             *refusal_notes(trajectory.counters),
             *pressure_notes(trajectory.counters),
-            *field_notes(trajectory.counters),
+            *field_notes(trajectory.counters, _field_was_used(trajectory)),
             *marker_notes(marker_report),
         ),
     )
+
+
+def _field_was_used(trajectory: Trajectory) -> bool:
+    aids = trajectory.of_kind(EventKind.AID)
+    return any(e.accepted and e.detail.get("aid") == "magnetic_heading" for e in aids)
 
 
 def event_counts(trajectory: Trajectory) -> dict[str, dict[str, int]]:

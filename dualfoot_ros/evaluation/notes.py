@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from ..core import Refusal, refusal_of
+from ..core import Refusal, TrackerConfig, refusal_of
 from .metrics.markers import MarkerErrors
 
 LEFT_OUT = (
@@ -54,8 +54,11 @@ def pressure_notes(counters: Mapping[str, int]) -> Iterator[str]:
             yield f"{_many(count, 'sample')} of air pressure left out: {reason.words}"
 
 
-def field_notes(counters: Mapping[str, int]) -> Iterator[str]:
-    """Say whether a magnetic field was there, and how much of it could be used."""
+def field_notes(counters: Mapping[str, int], used: bool = True) -> Iterator[str]:
+    """Say whether a magnetic field was there, and how much of it could be used.
+
+    ``used`` says that it was at one stance at least.
+    """
     unused = counters.get(Refusal.FIELD_UNUSED, 0)
     if unused:
         yield (
@@ -70,7 +73,13 @@ def field_notes(counters: Mapping[str, int]) -> Iterator[str]:
         )
     before = counters.get(Refusal.STANCES_BEFORE_FIELD_REFERENCE, 0)
     disturbed = counters.get(Refusal.STANCES_IN_DISTURBED_FIELD, 0)
-    if before or disturbed:
+    if before and not used:
+        yield (
+            f"magnetic heading: no reference was found in {_many(before, 'stance')}, as the field "
+            "differed from stance to stance (indoors it is that of the building), so it did "
+            "nothing"
+        )
+    elif before or disturbed:
         yield (
             f"magnetic heading: {_many(before, 'stance')} until the field of the start was known, "
             f"{disturbed} left out because it was disturbed"
@@ -78,6 +87,36 @@ def field_notes(counters: Mapping[str, int]) -> Iterator[str]:
     for reason in FIELDS_LEFT_OUT:
         if count := counters.get(reason, 0):
             yield f"{_many(count, 'sample')} of the magnetic field left out: {reason.words}"
+
+
+def config_notes(config: TrackerConfig) -> Iterator[str]:
+    """Say what of a configuration makes it worse than the default, as in the papers' presets."""
+    if config.zupt.lever_arm == 0.0 and config.zupt.lever_back == 0.0:
+        yield (
+            "the zero velocity holds at the sensor, as in the papers, and not at the pivot of the "
+            "foot, so strides come out some percent short: 1.6 to 2.5 times the marker error of "
+            "the default on the rectangles of the dual-feet set; zupt.lever_arm and "
+            "zupt.lever_back cure it"
+        )
+    if config.heading.source == "first_strides" and config.heading.from_stance == 0:
+        yield (
+            "the heading is that of the very first stride of each foot, as in the paper, which "
+            "is short and changes the width, so the feet start degrees apart: up to five times "
+            "the marker error of the default; heading.from_stance=1 and heading.to_stance=3 cure "
+            "it"
+        )
+    hard = [
+        name
+        for spec in config.constraint.specs(f"{config.method}.")
+        if (name := spec.name).endswith(("distance_std", "spacing_std"))
+        and config.to_mapping()[name] == 0.0
+    ]
+    if hard:
+        yield (
+            f"the constraint is hard ({hard[0]} is 0), as in the paper, while the distance of the "
+            "feet varies by 2 cm a step, so it turns the tracks and claims too much: up to ten "
+            "times the marker error of the default; 0.1 is that of idc, 0.15 of spacing_vector"
+        )
 
 
 def marker_notes(reports: Mapping[str, MarkerErrors]) -> Iterator[str]:

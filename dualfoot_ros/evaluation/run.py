@@ -30,6 +30,7 @@ from ..recording import Correction, Recording, Reference
 from ..settings import flat, load_config
 from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options
+from .notes import config_notes
 from .track import track, truth_of
 
 
@@ -125,6 +126,7 @@ def run_checked(
         findings=(*findings, *of_walk),
         notes=(
             *evaluation.notes,
+            *config_notes(config),
             *(f"warning: {each.sentence}" for each in (*findings, *of_walk)),
         ),
         run_s=run_s,

@@ -39,6 +39,7 @@ def unconstrained_config(config: TrackerConfig | None = None) -> TrackerConfig:
     return TrackerConfig(
         method="zupt",
         gravity=config.gravity,
+        increments=config.increments,
         alignment=config.alignment,
         stance=config.stance,
         zupt=config.zupt,

@@ -19,7 +19,13 @@ from .nodes import (
     node_parameter_names,
     node_specs,
 )
-from .presets import find_config, load_config, preset_names
+from .presets import (
+    find_config,
+    load_config,
+    paper_noise_file,
+    paper_noise_names,
+    preset_names,
+)
 
 __all__ = [
     "LIVE",
@@ -41,6 +47,8 @@ __all__ = [
     "load_config",
     "node_parameter_names",
     "node_specs",
+    "paper_noise_file",
+    "paper_noise_names",
     "parameter_file",
     "preset_names",
     "read_parameters",

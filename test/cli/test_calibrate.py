@@ -8,7 +8,7 @@ import pytest
 import yaml
 from calibration.rest import SIX, export, joined, moving, resting
 
-from dualfoot_ros.calibration import Calibration
+from dualfoot_ros.calibration import Calibration, SensorCalibration, Triad
 from dualfoot_ros.cli.main import main
 from dualfoot_ros.core import ImuSeries
 from dualfoot_ros.recording import Recording, write_bag
@@ -46,6 +46,33 @@ def bags(tmp_path_factory):
     write_bag(folder / "exchanged", Recording(eight.right, eight.left))
     write_bag(folder / "line", Recording(line.left, line.right))
     return {name: str(folder / name) for name in ("eight", "exchanged", "line")}
+
+
+def test_walks_give_gyro_matrices_beside_the_accelerometers_that_are_there(bags, tmp_path, capsys):
+    target = tmp_path / "both.yaml"
+    triad = Triad(np.zeros(3), np.eye(3), {"model": "full"})
+    Calibration({"left": SensorCalibration(accelerometer=triad)}).save(target)
+    assert main(["calibrate", "walk", bags["eight"], "-o", str(target), "--json"]) == 0
+    printed = capsys.readouterr()
+    facts = json.loads(printed.out)
+    assert facts["left"]["self_test_passed"] and facts["walks"] == ["eight"]
+    assert "right: the accelerometer is not calibrated; calibrate it first" in printed.err
+    assert "left: the accelerometer is not calibrated" not in printed.err
+    found = Calibration.load(target).sensors
+    assert found["left"].accelerometer is not None and found["right"].accelerometer is None
+    assert np.allclose(found["right"].gyro.matrix, facts["right"]["matrix"], atol=1e-8)
+
+
+def test_a_walk_that_is_no_loop_gives_no_pivot(bags, tmp_path, capsys):
+    target = tmp_path / "pivot.yaml"
+    assert main(["calibrate", "walk", bags["eight"], "--parameters", str(target)]) == 2
+    assert "no walk is a loop by its reference.yaml" in capsys.readouterr().err
+    assert not target.exists()
+
+
+def test_a_misalignment_out_of_range_is_refused(bags, capsys):
+    assert main(["calibrate", "walk", bags["eight"], "--misalignment", "2"]) == 2
+    assert "--misalignment is 2; allowed is 0 to 0.1 rad" in capsys.readouterr().err
 
 
 def test_six_exports_become_a_calibration_file_with_a_figure_beside_it(six, tmp_path, capsys):

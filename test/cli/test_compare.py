@@ -3,8 +3,10 @@
 import csv
 import json
 
+import numpy as np
 import pytest
 
+from dualfoot_ros.calibration import Calibration, SensorCalibration, Triad
 from dualfoot_ros.cli.main import main
 from dualfoot_ros.recording import Recording, write_bag
 from dualfoot_ros.simulation import WalkConfig, simulate
@@ -109,3 +111,23 @@ def test_a_repeated_walk_has_no_pressure_and_no_field_for_an_aid(bags, capsys, a
     arguments = ["--methods", "zupt", "--repeat", "2", "--set", f"aids.{aid}=true", "--jobs", "1"]
     assert main(["compare", bags[0], *arguments]) == 2
     assert f"aids.{aid} is on with --repeat 2; " in capsys.readouterr().err
+
+
+def test_presets_in_a_table_are_explained_below_it(bags, capsys):
+    assert main(["compare", bags[0], "--methods", "zupt,liu2023", "--jobs", "1"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "liu2023: the zero velocity holds at the sensor" in said
+    assert "zupt: the zero velocity" not in said
+
+
+def test_a_calibration_corrects_every_bag(bags, tmp_path, capsys):
+    triad = Triad(np.zeros(3), 1.02 * np.eye(3))
+    sensors = {foot: SensorCalibration(gyro=triad) for foot in ("left", "right")}
+    path = tmp_path / "both.yaml"
+    Calibration(sensors).save(path)
+    ends = []
+    for arguments in ([], ["--calibration", str(path)]):
+        command = ["compare", bags[0], "--methods", "zupt", "--json", "--jobs", "1"]
+        assert main([*command, *arguments]) == 0
+        ends.append(json.loads(capsys.readouterr().out)["runs"][0]["closure"]["left_m"])
+    assert ends[0] != ends[1]

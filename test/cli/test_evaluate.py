@@ -156,3 +156,33 @@ def test_the_magnetic_heading_without_a_field_in_the_bag_is_one_sentence_and_cod
     said = capsys.readouterr().err
     assert said.startswith("dualfoot evaluate: error: aids.magnetic_heading is on but")
     assert "/left/imu/mag" in said and len(said.splitlines()) == 1
+
+
+def test_a_preset_says_what_makes_it_worse_and_takes_the_papers_numbers_when_asked(bag, capsys):
+    found = []
+    for arguments in ([], ["--config", "liu2023"], ["--config", "liu2023", "--paper-noise"]):
+        assert main(["evaluate", bag, *arguments, "--json"]) == 0
+        found.append(json.loads(capsys.readouterr().out))
+    plain, preset, paper = found
+    assert not any("as in the paper" in note for note in plain["notes"])
+    assert any("zero velocity holds at the sensor" in note for note in preset["notes"])
+    assert not any("constraint is hard" in note for note in preset["notes"])
+    assert any("constraint is hard (idc.distance_std is 0)" in note for note in paper["notes"])
+    gyro = [each["parameters"]["noise.gyro"] for each in found]
+    assert gyro[0] == gyro[1] > gyro[2]
+
+
+def test_the_noise_of_a_paper_without_a_preset_is_one_sentence_and_code_2(bag, capsys):
+    assert main(["evaluate", bag, "--paper-noise"]) == 2
+    assert "noise of a paper is asked for with no preset" in capsys.readouterr().err
+
+
+def test_a_walk_can_calibrate_itself_and_the_report_says_so(tmp_path, capsys):
+    made = simulate(WalkConfig(route="figure_eight", rate=60.0), seed=1)
+    bag = str(write_bag(tmp_path / "eight", Recording(made.left, made.right)))
+    assert main(["evaluate", bag, "--self-calibrate", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["self_calibrated"] is True
+    assert found["calibration"] == {"left": ["gyro"], "right": ["gyro"]}
+    assert any("gyro matrices from this walk itself" in note for note in found["notes"])
+    assert any("left: the accelerometer is not calibrated" in note for note in found["notes"])

@@ -12,6 +12,7 @@ from dualfoot_ros.calibration import SensorCalibration, Triad
 from dualfoot_ros.cli.main import main
 from dualfoot_ros.core import ConfigError, TrackerConfig
 from dualfoot_ros.evaluation import Align, EvaluationError, Options, RunOptions, run
+from dualfoot_ros.evaluation.notes import field_notes
 from dualfoot_ros.inspection import FindingKind
 from dualfoot_ros.recording import (
     Recording,
@@ -149,3 +150,11 @@ def test_the_tracks_before_alignment_and_the_time_it_took_are_kept(walked):
     assert moved[-len(result.trajectory.left) :] == pytest.approx(
         result.trajectory.left.position, abs=1e-9
     )
+
+
+def test_a_magnetic_heading_that_found_no_reference_says_so():
+    counters = {"stances_before_field_reference": 40}
+    (note,) = field_notes(counters, used=False)
+    assert "no reference was found in 40 stances" in note
+    (usual,) = field_notes(counters, used=True)
+    assert "40 stances until the field of the start was known" in usual

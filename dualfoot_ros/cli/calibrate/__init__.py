@@ -7,12 +7,14 @@ import argparse
 from . import accelerometer as calibrate_accelerometer
 from . import gyro as calibrate_gyro
 from . import spacing as calibrate_spacing
+from . import walk as calibrate_walk
 
-HELP = "calibrate accelerometer, gyro and noise, and the distance of the feet in passing"
+HELP = "calibrate accelerometer, gyro, noise, gyro matrix, and the distance of the feet in passing"
 WHAT = {
     "accelerometer": calibrate_accelerometer,
     "gyro": calibrate_gyro,
     "spacing": calibrate_spacing,
+    "walk": calibrate_walk,
 }
 EXAMPLES = "examples:\n" + "".join(module.FIRST for module in WHAT.values())
 

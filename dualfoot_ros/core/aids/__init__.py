@@ -6,6 +6,7 @@ from .flat_floor import FlatFloor
 from .inputs import AidInputs
 from .magnetic_heading import MagneticHeading
 from .pressure import RANGE_PA, PressureLog, height_pressure, pressure_height
+from .straight_lines import StraightLine, StraightLines
 
 __all__ = [
     "RANGE_PA",
@@ -17,6 +18,8 @@ __all__ = [
     "FlatFloor",
     "MagneticHeading",
     "PressureLog",
+    "StraightLine",
+    "StraightLines",
     "height_pressure",
     "pressure_height",
 ]

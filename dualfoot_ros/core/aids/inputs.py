@@ -19,6 +19,7 @@ from .field import FieldLog
 from .flat_floor import FlatFloor
 from .magnetic_heading import MagneticHeading
 from .pressure import PressureLog
+from .straight_lines import StraightLines
 
 Vector = Sequence[float] | FloatArray
 
@@ -40,6 +41,8 @@ class AidInputs:
             found.append(Barometer(config, self._pressure, counters))
         if config.magnetic_heading:
             found.append(MagneticHeading(config, self._fields, counters))
+        if config.straight_lines:
+            found.append(StraightLines(config))
         return found
 
     def retune(self, config: AidsConfig, aids: Sequence[Method]) -> list[Method]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...core import METHODS, EvaluationError, TrackerConfig, all_specs
-from ...settings import load_config, preset_names
+from ...settings import load_config, paper_noise_names, preset_names
 
 SHORT = {"gamma": "stance.threshold"}
 MOST_VALUES = 200
@@ -106,8 +106,12 @@ def make_cases(
     base: str | None = None,
     overrides: Mapping[str, Any] | None = None,
     sweeps: Sequence[Sweep] = (),
+    *,
+    paper_noise: bool = False,
 ) -> list[Case]:
     """Return the cases of methods (with the parameters of ``base``) and presets, sweeps after.
+
+    ``paper_noise`` gives the presets noise, bias and c0 of their paper, where it states them.
 
     Raises
     ------
@@ -116,7 +120,7 @@ def make_cases(
     ConfigError
         When a value is out of its range.
     """
-    plain = {name: _config(name, base, overrides or {}) for name in names}
+    plain = {name: _config(name, base, overrides or {}, paper_noise) for name in names}
     cases = [Case(name, config) for name, config in plain.items()]
     for sweep in sweeps:
         swept = [case for name, config in plain.items() for case in _swept(name, config, sweep)]
@@ -128,10 +132,14 @@ def make_cases(
     return cases
 
 
-def _config(name: str, base: str | None, overrides: Mapping[str, Any]) -> TrackerConfig:
+def _config(
+    name: str, base: str | None, overrides: Mapping[str, Any], paper_noise: bool
+) -> TrackerConfig:
+    stated = paper_noise_names() if paper_noise else []
     if name in METHODS:
-        return load_config(base, {**overrides, "method": name})
-    return load_config(name, overrides)
+        whole = {**overrides, "method": name}
+        return load_config(base, whole, paper_noise=base in stated)
+    return load_config(name, overrides, paper_noise=name in stated)
 
 
 def _swept(name: str, config: TrackerConfig, sweep: Sweep) -> Iterator[Case]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ import numpy as np
 from ...core import EvaluationError, FloatArray, IntArray, swing_passings
 from ...core.compiler import compiled
 from ...inspection import Finding, check_usable
-from ...recording import Recording, Topics, read_bag
+from ...recording import Correction, Recording, Topics, read_bag
 from ..evaluate import Evaluation
 from ..frames.gauge import Options, Truth
 from ..metrics.accuracy import Statistics, statistics
@@ -28,7 +28,10 @@ NEAR_S = 0.25
 
 @dataclass(frozen=True)
 class Job:
-    """A case to run on a bag; topics of the samples, None for the usual ones."""
+    """A case to run on a bag.
+
+    ``left_topic`` and ``right_topic`` are None for the usual ones; ``calibration`` is by foot.
+    """
 
     bag: str
     case: Case
@@ -37,6 +40,7 @@ class Job:
     left_topic: str | None = None
     right_topic: str | None = None
     allow_nan: bool = False
+    calibration: Mapping[str, Correction] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -98,7 +102,7 @@ def compare_one(job: Job) -> Entry:
     topics = job.left_topic, job.right_topic
     recording, findings = _read(job.bag, topics, job.allow_nan, job.repeat)
     warm_up()
-    options = RunOptions(alignment=job.options, check_feet=False)
+    options = RunOptions(alignment=job.options, calibration=job.calibration, check_feet=False)
     evaluation = run_checked(recording, job.case.config, options, findings)
     return Entry(
         job.bag,

@@ -7,12 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dualfoot_ros.core import DualFootTracker, EventKind, TrackerConfig
+from dualfoot_ros.core import DualFootTracker, EventKind, TrackerConfig, Trajectory
 from dualfoot_ros.core.constraints.varying_distance import (
+    Strides,
     VaryingDistance,
     VaryingDistanceConfig,
     feet_adjacent,
 )
+from dualfoot_ros.simulation import Gait, WalkConfig, simulate
+from dualfoot_ros.timing import align
 
 from ..harness import simulated, walk
 from .joint import MadeUpGait, apart, stance
@@ -24,6 +27,7 @@ offsets = st.integers(-60, 60)
 @given(offsets)
 def test_the_bound_is_symmetric_about_feet_adjacent(offset):
     method = VaryingDistance(VaryingDistanceConfig())
+    assert 0.2 < method.bounds()[0] < 0.6 < method.bounds()[1]
     assert method.bound(offset, PHASE) == method.bound(-offset, PHASE)
 
 
@@ -45,7 +49,8 @@ def test_the_bound_is_the_minimum_at_feet_adjacent_and_the_maximum_at_the_ends()
 def test_the_papers_sigma_is_five_samples_at_60_hz():
     """There the flipped Gaussian has risen by 1 - exp(-1/2) of the way five samples from FA."""
     at_60_hz = stance(0, 60, 90, rate=60.0)
-    risen = (VaryingDistance(VaryingDistanceConfig()).bound(5, at_60_hz) - 0.2) / 0.7
+    config = VaryingDistanceConfig(minimum=0.2, maximum=0.9)
+    risen = (VaryingDistance(config).bound(5, at_60_hz) - 0.2) / 0.7
     assert risen == pytest.approx(1.0 - np.exp(-0.5), abs=1e-3)
 
 
@@ -57,7 +62,7 @@ def moving_period(others: slice) -> tuple[MadeUpGait, VaryingDistance]:
     samples = np.zeros((2, 100, 6))
     samples[0, 20:60, 4] = np.cos(np.linspace(-np.pi, np.pi, 40)) * 5.0
     return MadeUpGait(still, np.zeros((100, 2, 3)), samples, ended=(19, -1)), VaryingDistance(
-        VaryingDistanceConfig()
+        VaryingDistanceConfig(minimum=0.2, maximum=0.9)
     )
 
 
@@ -115,9 +120,42 @@ def test_feet_adjacent_on_a_simulated_walk_is_near_the_true_moment(rate):
 
 
 def test_on_a_walk_no_distance_is_beyond_the_bound_of_its_moment():
-    config = TrackerConfig.from_mapping({"method": "varying_distance"})
+    bounds = {"varying_distance.minimum": 0.2, "varying_distance.maximum": 0.9}
+    config = TrackerConfig.from_mapping({"method": "varying_distance", **bounds})
     run = DualFootTracker(config).run(*walk(25.0).series())
     found = run.of_kind(EventKind.CONSTRAINT)
     assert sum(event.accepted for event in found) > 20
     for event in found:
         assert event.detail["distance_after"] <= event.detail["target"] + 1e-12
+
+
+def tracked(speed: float, **settings: float) -> Trajectory:
+    """Return a walk with turns tracked with the method, its feet passing at 0.22 m."""
+    gait = Gait(min_distance=0.22)
+    made = simulate(WalkConfig(route="figure_eight", rate=60.0, speed=speed, gait=gait), seed=2)
+    named = {f"varying_distance.{name}": value for name, value in settings.items()}
+    config = TrackerConfig.from_mapping({"method": "varying_distance", **named})
+    return DualFootTracker(config).run(*align(made.left, made.right))
+
+
+def pulled(run: Trajectory) -> float:
+    """Return by how much the feet were pulled in all, m."""
+    found = [e.detail for e in run.of_kind(EventKind.CONSTRAINT) if e.accepted]
+    return sum(each["distance"] - each["distance_after"] for each in found)
+
+
+@pytest.mark.parametrize("speed", (0.9, 1.5))
+def test_bounds_from_the_walk_leave_feet_alone_that_pass_farther_apart_than_the_papers(speed):
+    learnt, papers = tracked(speed), tracked(speed, minimum=0.2, maximum=0.9)
+    assert pulled(learnt) < 0.4 * pulled(papers)
+
+
+def test_the_bound_at_the_ends_follows_the_strides():
+    strides = Strides()
+    assert strides.step_m() is None
+    for k in range(4):
+        strides.add(0, np.array([1.4 * k, 0.0, 0.0]))
+    assert strides.step_m() == pytest.approx(0.7 * 1.3)
+    strides.forget_places()
+    strides.add(0, np.array([50.0, 0.0, 0.0]))
+    assert strides.step_m() == pytest.approx(0.7 * 1.3)

@@ -88,7 +88,7 @@ def run(args: argparse.Namespace) -> int:
 
     check_counts(args, repeat=20)
     if args.output is not None:
-        check_directory(args.output)
+        check_directory(args.output, overwrite=args.overwrite)
     jobs = _jobs(args, _cases(args))
     entries, failures = _run(jobs, args.jobs or default_jobs())
     print_failures("compare", failures)

@@ -94,7 +94,7 @@ def run(args: argparse.Namespace) -> int:
     from ..evaluation.reports import check_directory
 
     if args.output is not None:
-        check_directory(args.output)
+        check_directory(args.output, overwrite=args.overwrite)
     calibration = for_feet(args.calibration)
     options = _options(args, calibration)
     config = tracker_config(args)
@@ -125,10 +125,17 @@ def _options(args: argparse.Namespace, calibration: Mapping[str, Correction]) ->
 
 
 def _write(args: argparse.Namespace, result: Evaluation, metrics: dict[str, Any]) -> list[Path]:
-    from ..evaluation.reports import METRICS, report_folder, write_json, write_tracks
+    from ..evaluation.reports import (
+        METRICS,
+        report_folder,
+        write_json,
+        write_strides,
+        write_tracks,
+    )
 
     with report_folder(args.output) as folder:
         paths = [write_json(folder / METRICS, metrics), *write_tracks(folder, result)]
+        paths.append(write_strides(folder, result))
         if not args.no_plots:
             from ..evaluation.reports.plots import draw_all
 

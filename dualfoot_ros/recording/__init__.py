@@ -3,7 +3,7 @@
 from ..core import RecordingError
 from .atomic import check_file, check_target, new_directory, new_files, write_text
 from .log_times import read_arrivals
-from .open_bag import METADATA, TopicInfo, list_topics
+from .open_bag import METADATA, TopicInfo, is_bag, list_topics
 from .read import read_bag
 from .recording import Correction, Recording
 from .reference import Reference
@@ -22,6 +22,7 @@ __all__ = [
     "Topics",
     "check_file",
     "check_target",
+    "is_bag",
     "list_topics",
     "new_directory",
     "new_files",

@@ -14,7 +14,7 @@ from ..frames.gauge import Options
 from ..track import truth_of
 from .output import METRICS, report_folder, write_json
 from .plots import draw_all
-from .tum import write_tracks
+from .text_files import write_tracks
 from .walk_table import methods_table
 
 if TYPE_CHECKING:

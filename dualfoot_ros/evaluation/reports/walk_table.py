@@ -6,12 +6,22 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from ...core import FEET
 from ..evaluate import Evaluation
 from ..frames.association import Footfalls
+from ..gait import PARAMETERS
 from ..metrics.accuracy import Statistics
 
 if TYPE_CHECKING:
     from rich.table import Table
+
+SHOWN_GAIT = {
+    "stride_length_m": 3,
+    "step_width_m": 3,
+    "cadence_steps_per_min": 1,
+    "speed_m_per_s": 2,
+}
+"""Gait parameters in the table, with their digits."""
 
 Row = tuple[str, str, str, str]
 COLUMNS = (
@@ -36,7 +46,7 @@ def walk_table(run: Evaluation, title: str) -> Table:
         ("both feet", "right"),
     ):
         table.add_column(name, justify=side)  # type: ignore[arg-type]
-    for section in (_walk(run), _truth(run), _markers(run), _closure(run), _feet(run)):
+    for section in (_walk(run), _truth(run), _markers(run), _closure(run), _feet(run), _gait(run)):
         for row in section:
             table.add_row(*row)
         table.add_section()
@@ -125,6 +135,20 @@ def _spread(label: str, spread: Statistics) -> Iterator[Row]:
     both = f"{number(spread.mean, 3)} +- {number(spread.std, 3)}"
     yield f"{label}, mean +- std (m)", "", "", both
     yield "    RMS, max (m)", "", "", f"{number(spread.rms, 3)}, {number(spread.max, 3)}"
+
+
+def _gait(run: Evaluation) -> Iterator[Row]:
+    """Yield the parameters that everybody asks for; the others are in the files of a report."""
+    left, right = (run.gait.count(foot, steady=True) for foot in FEET)
+    if left + right == 0:
+        return
+    yield "steady strides", str(left), str(right), ""
+    for name, digits in SHOWN_GAIT.items():
+        own = run.gait.parameters[name]
+        feet = [
+            f"{number(s.mean, digits)} +- {number(s.std, digits)}" for s in (own.left, own.right)
+        ]
+        yield PARAMETERS[name], feet[0], feet[1], number(own.both.mean, digits)
 
 
 def methods_table(runs: Mapping[str, Evaluation], title: str) -> Table:

@@ -15,10 +15,10 @@ from rich.console import Console
 from dualfoot_ros.evaluation import Align, EvaluationError, Options, demo_report, evaluate
 from dualfoot_ros.evaluation.notes import marker_notes, refusal_notes
 from dualfoot_ros.evaluation.plain import plain
-from dualfoot_ros.evaluation.reports.output import report_folder
+from dualfoot_ros.evaluation.reports.output import check_directory, report_folder
 from dualfoot_ros.evaluation.reports.plots import draw_all, tracks
 from dualfoot_ros.evaluation.reports.plots.error_curves import _in_stance
-from dualfoot_ros.evaluation.reports.tum import write_tracks
+from dualfoot_ros.evaluation.reports.text_files import write_tracks
 from dualfoot_ros.evaluation.reports.walk_table import walk_table
 from dualfoot_ros.recording.recording import Recording
 from dualfoot_ros.recording.reference import Reference
@@ -157,6 +157,26 @@ def test_a_new_report_replaces_the_old_one_and_nothing_else_in_the_folder(tmp_pa
     with report_folder(tmp_path) as folder:
         (folder / "metrics.json").write_text("new")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["metrics.json", "notes.txt"]
+
+
+def test_an_earlier_report_is_replaced_only_when_that_is_asked_for(tmp_path):
+    check_directory(tmp_path / "new")
+    (tmp_path / "notes.txt").write_text("mine")
+    check_directory(tmp_path)
+    (tmp_path / "metrics.json").write_text("{}")
+    with pytest.raises(EvaluationError, match="--overwrite"):
+        check_directory(tmp_path)
+    check_directory(tmp_path, overwrite=True)
+
+
+@pytest.mark.parametrize("inside", [".", "report", "reports/of/today"])
+def test_a_report_never_goes_into_a_recording_not_even_when_asked(tmp_path, inside):
+    (tmp_path / "metadata.yaml").write_text("rosbag2_bagfile_information:\n  version: 9\n")
+    with pytest.raises(EvaluationError, match="outside"):
+        check_directory(tmp_path / inside, overwrite=True)
+    with pytest.raises(EvaluationError, match="outside"), report_folder(tmp_path / inside):
+        pass
+    assert [p.name for p in tmp_path.iterdir()] == ["metadata.yaml"]
 
 
 def test_plain_values_have_no_arrays_no_enums_and_no_not_a_number():

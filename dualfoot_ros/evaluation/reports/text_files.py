@@ -1,6 +1,7 @@
-"""Trajectories as TUM files, the text format that evo and others read.
+"""Tracks and strides of a report as text files.
 
-One line a pose: ``seconds x y z qx qy qz qw``, metres, Hamilton quaternion body to navigation.
+TUM is the format that evo and others read, one line a pose: ``seconds x y z qx qy qz qw``, metres,
+Hamilton quaternion body to navigation.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import numpy as np
 
 from ...core import FootTrajectory, PoseSeries
 from ..evaluate import Evaluation
+from ..gait import strides_csv
 
 
 def write_tum(path: Path, track: FootTrajectory | PoseSeries) -> Path:
@@ -35,3 +37,10 @@ def write_tracks(directory: Path, evaluation: Evaluation, prefix: str = "") -> l
     for foot, truth in zip(evaluation.feet_tracks, evaluation.truth or (), strict=False):
         paths.append(write_tum(directory / f"{prefix}{foot}_truth.tum", truth))
     return paths
+
+
+def write_strides(directory: Path, evaluation: Evaluation) -> Path:
+    """Write ``strides.csv``, one row a stride, and return its path."""
+    path = directory / "strides.csv"
+    path.write_text(strides_csv(evaluation.gait.strides), encoding="utf-8")
+    return path

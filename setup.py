@@ -25,7 +25,11 @@ setup(
     python_requires=">=3.11",
     packages=[*find_packages(include=[NAME, f"{NAME}.*"]), f"{NAME}.config"],
     package_dir={f"{NAME}.config": "config"},
-    package_data={f"{NAME}.config": ["*.yaml", "nodes/*.yaml"], NAME: ["py.typed"]},
+    package_data={
+        f"{NAME}.config": ["*.yaml", "nodes/*.yaml"],
+        f"{NAME}.evaluation.reports.html": ["*.css", "*.js"],
+        NAME: ["py.typed"],
+    },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
         (f"share/{NAME}", ["package.xml"]),
@@ -46,7 +50,7 @@ setup(
     ],
     extras_require={
         "ble": ["bleak>=0.21"],
-        "test": ["pytest", "hypothesis"],
+        "test": ["pytest", "hypothesis", "selenium>=4.20"],
         "dev": ["mypy", "pytest-xdist", "ruff", "setuptools", "types-PyYAML"],
         "ros": ["ros-jazzy-common-interfaces", "ros-jazzy-rclpy[fastrtps]"],
     },

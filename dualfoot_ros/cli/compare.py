@@ -162,12 +162,14 @@ def _write(
     document: dict[str, Any],
 ) -> list[Path]:
     from ..evaluation.reports import csv_text, report_folder, write_json
+    from ..evaluation.reports.html import write_comparison_page
 
     with report_folder(args.output) as folder:
         paths = [write_json(folder / "compare.json", document), folder / "compare.csv"]
         paths[1].write_text(csv_text(rows), encoding="utf-8")
         if not args.no_plots:
             paths += _draw(entries, rows, folder)
+            paths.append(write_comparison_page(folder, entries, rows, document["failed"]))
     return [args.output / path.name for path in paths]
 
 

@@ -137,9 +137,12 @@ def _write(args: argparse.Namespace, result: Evaluation, metrics: dict[str, Any]
         paths = [write_json(folder / METRICS, metrics), *write_tracks(folder, result)]
         paths.append(write_strides(folder, result))
         if not args.no_plots:
+            from ..evaluation.reports.html import write_walk_page
             from ..evaluation.reports.plots import draw_all
 
-            paths += draw_all({result.trajectory.method: result}, folder, Path(args.bag).name)
+            runs, title = {result.trajectory.method: result}, Path(args.bag).name
+            paths += draw_all(runs, folder, title)
+            paths.append(write_walk_page(folder, runs, title, metrics["parameters"]))
     return [args.output / path.name for path in paths]
 
 

@@ -42,7 +42,14 @@ def test_json_is_one_object_and_nothing_else_whatever_is_written_beside_it(bag, 
     metrics = json.loads(capsys.readouterr().out)
     assert metrics["alignment"]["method"] == "first_strides"
     assert metrics["parameters"]["method"] == metrics["method"]
-    names = {"metrics.json", "strides.csv", "left.tum", "right.tum", "left_truth.tum", "right_truth.tum"}
+    names = {
+        "metrics.json",
+        "strides.csv",
+        "left.tum",
+        "right.tum",
+        "left_truth.tum",
+        "right_truth.tum",
+    }
     assert {p.name for p in target.iterdir()} == names
     assert sorted(metrics["files"]) == sorted(str(p) for p in target.iterdir())
 

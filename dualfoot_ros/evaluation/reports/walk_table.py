@@ -23,6 +23,9 @@ SHOWN_GAIT = {
 }
 """Gait parameters in the table, with their digits."""
 
+MOST_MARKS = 5
+"""Rows of "error at N m" on long walks; the files have all of them."""
+
 Row = tuple[str, str, str, str]
 COLUMNS = (
     "RMSE (m)",
@@ -46,11 +49,17 @@ def walk_table(run: Evaluation, title: str) -> Table:
         ("both feet", "right"),
     ):
         table.add_column(name, justify=side)  # type: ignore[arg-type]
-    for section in (_walk(run), _truth(run), _markers(run), _closure(run), _feet(run), _gait(run)):
+    for section in sections(run):
         for row in section:
             table.add_row(*row)
         table.add_section()
     return table
+
+
+def sections(run: Evaluation) -> list[list[Row]]:
+    """Return the rows (name, left, right, both feet) of what is known, section by section."""
+    parts = (_walk(run), _truth(run), _markers(run), _closure(run), _feet(run), _gait(run))
+    return [rows for part in parts if (rows := list(part))]
 
 
 def number(value: float | None, digits: int = 2) -> str:
@@ -79,7 +88,7 @@ def _truth(run: Evaluation) -> Iterator[Row]:
     for label, name in names.items():
         left, right, middle = (number(getattr(s, name), 3) for s in sides)
         yield label, left, right, f"mid-point {middle}"
-    for mark in report.midpoint.at_distance_m:
+    for mark in _few(list(report.midpoint.at_distance_m)):
         errors = [number(s.at_distance_m.get(mark), 3) for s in sides]
         yield f"error at {mark} m (m)", errors[0], errors[1], f"mid-point {errors[2]}"
     strides = (report.left_strides, report.right_strides)
@@ -93,6 +102,12 @@ def _truth(run: Evaluation) -> Iterator[Row]:
     nees = report.nees
     positions = number(nees.left_position), number(nees.right_position)
     yield "NEES of position / 3", *positions, f"{number(nees.relative_position)} relative"
+
+
+def _few(marks: list[str]) -> list[str]:
+    """Return at most ``MOST_MARKS`` of the marks, evenly spaced: 800, 1600 ... of 200, 400 ..."""
+    step = math.ceil(len(marks) / MOST_MARKS) or 1
+    return marks[step - 1 :: step]
 
 
 def _markers(run: Evaluation) -> Iterator[Row]:

@@ -4,6 +4,7 @@ from ..core import EvaluationError
 from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options
 from .frames.yaw_transform import Align, Pair
+from .person import PersonTrack, person_track
 from .plain import plain
 from .published import published_trajectory
 from .reports.demo_table import Report, demo_report
@@ -16,11 +17,13 @@ __all__ = [
     "EvaluationError",
     "Options",
     "Pair",
+    "PersonTrack",
     "Report",
     "RunOptions",
     "demo_report",
     "evaluate",
     "pair_samples",
+    "person_track",
     "plain",
     "published_trajectory",
     "run",

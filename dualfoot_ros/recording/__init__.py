@@ -8,6 +8,7 @@ from .read import read_bag
 from .recording import Correction, Recording
 from .reference import Reference
 from .topics import PRESSURE_TOPICS, Topics
+from .track_bag import OdometrySeries, write_track_bag
 from .write import STORAGES, write_bag
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "PRESSURE_TOPICS",
     "STORAGES",
     "Correction",
+    "OdometrySeries",
     "Recording",
     "RecordingError",
     "Reference",
@@ -30,4 +32,5 @@ __all__ = [
     "read_bag",
     "write_bag",
     "write_text",
+    "write_track_bag",
 ]

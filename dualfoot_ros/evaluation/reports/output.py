@@ -21,6 +21,7 @@ OWN = (
     "person.*",
     "compare.*",
     "consistency.json",
+    "estimate_bag",
 )
 """What earlier reports may have left in the folder of a report."""
 

@@ -94,8 +94,10 @@ def test_the_words_name_distance_and_error_and_warn_in_front():
     walked = f"{person_track(run.trajectory).walked_m[-1]:.1f} m"
     assert any(walked in s.text for s in sentences)
     assert any("0.00 m off at the end" in s.text for s in sentences)
-    good = in_words(run, person_track(run.trajectory))
+    good = in_words(replace(run, run_s=1.0), person_track(run.trajectory))
     assert good[0].tone is Tone.GOOD
+    unchecked = in_words(run, person_track(run.trajectory))
+    assert {s.tone for s in unchecked} == {Tone.PLAIN}
 
 
 def test_a_closed_loop_is_called_so_only_where_it_is_known():

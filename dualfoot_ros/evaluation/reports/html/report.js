@@ -348,9 +348,11 @@
 
     drawPicture(parent) {
       const p = this.spec.picture;
-      element("image", { href: p.href, x: this.X(p.x0), y: this.Y(p.y1), opacity: 0.75,
-        width: this.X(p.x1) - this.X(p.x0), height: this.Y(p.y0) - this.Y(p.y1),
-        preserveAspectRatio: "none" }, parent);
+      const scale = (this.f.right - this.f.left) / (this.shownView.x[1] - this.shownView.x[0]);
+      const x = this.X(p.x), y = this.Y(p.y);
+      element("image", { href: p.href, x: x - p.left * scale, y: y - p.up * scale, opacity: 0.75,
+        width: p.width * scale, height: p.height * scale, preserveAspectRatio: "none",
+        transform: `rotate(${-p.angle} ${x} ${y})` }, parent);
     }
 
     drawScale(svg) {

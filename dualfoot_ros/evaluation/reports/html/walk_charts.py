@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
 from ....core import FEET
 from ...evaluate import Evaluation
+from ...exports import start_direction
 from ...person import PersonTrack
 from ..plots import FOOT, GREEN, MARKER, TRUTH
 
@@ -16,7 +15,6 @@ PERSON = "#4B3F8F"
 LONG_WALK_M = 400.0
 """On longer walks the lines of the feet would cover each other, so they are hidden at first."""
 
-HEADING_M = 3.0
 TOLD = [
     ["time", "time (s)", 1],
     ["walked", "walked (m)", 1],
@@ -88,9 +86,7 @@ def _map(run: Evaluation, person: PersonTrack) -> dict[str, Any]:
 def map_marks(person: PersonTrack) -> list[dict[str, Any]]:
     """Return start (with the heading of the first metres) and end."""
     first, last = person.position[0], person.position[-1]
-    ahead = min(int(np.searchsorted(person.walked_m, HEADING_M)), len(person.walked_m) - 1)
-    way = person.position[ahead] - first
-    angle = math.degrees(math.atan2(way[1], way[0]))
+    angle = math.degrees(start_direction(person))
     start = {"x": first[0], "y": first[1], "label": "start", "symbol": "arrow", "angle": angle}
     return [start, {"x": last[0], "y": last[1], "label": "end", "symbol": "cross"}]
 

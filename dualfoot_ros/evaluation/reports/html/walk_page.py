@@ -9,6 +9,7 @@ from typing import Any
 
 from ....core import EventKind
 from ...evaluate import Evaluation
+from ...exports import FloorPlan
 from ...gait import PARAMETERS
 from ...person import PersonTrack, person_track
 from ..walk_table import number, sections
@@ -33,7 +34,7 @@ def write_walk_page(
     runs: Mapping[str, Evaluation],
     title: str,
     parameters: Mapping[str, Any] | None = None,
-    floor_plan: Mapping[str, Any] | None = None,
+    floor_plan: FloorPlan | None = None,
 ) -> Path:
     """Write ``report.html`` into ``directory`` and return its path.
 
@@ -42,7 +43,7 @@ def write_walk_page(
     runs : name -> evaluation of the same recording, one for each method
     title : of the page, such as the name of the recording
     parameters : of the tracker by dotted name, for the end of the page
-    floor_plan : picture under the track, as :func:`floor_plan` returns it
+    floor_plan : picture under the track
     """
     path = directory / FILE_NAME
     path.write_text(walk_page(runs, title, parameters, floor_plan), encoding="utf-8")
@@ -53,7 +54,7 @@ def walk_page(
     runs: Mapping[str, Evaluation],
     title: str,
     parameters: Mapping[str, Any] | None = None,
-    floor_plan: Mapping[str, Any] | None = None,
+    floor_plan: FloorPlan | None = None,
 ) -> str:
     """Return the page; see :func:`write_walk_page`."""
     tables: dict[str, Any] = {}
@@ -63,7 +64,7 @@ def walk_page(
         person = person_track(run.trajectory)
         own = _prefixed(index, walk_tables(run, person), walk_charts(run, person))
         if floor_plan is not None:
-            own[1][f"{index}.map"]["picture"] = floor_plan
+            own[1][f"{index}.map"]["picture"] = floor_plan.picture(person)
         tables |= own[0]
         charts |= own[1]
         body += _run_sections(run, person, list(own[1]), name if len(runs) > 1 else "")

@@ -47,7 +47,7 @@ def in_words(run: Evaluation, person: PersonTrack) -> list[Sentence]:
 def _warnings(run: Evaluation) -> Iterator[Sentence]:
     for finding in run.findings:
         yield Sentence(f"{finding.sentence}.", Tone.WARNING)
-    if not run.findings:
+    if run.run_s is not None and not run.findings:
         yield Sentence("The checks of the recording found nothing suspicious.", Tone.GOOD)
 
 

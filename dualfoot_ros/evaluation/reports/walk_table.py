@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 SHOWN_GAIT = {
-    "stride_length_m": 3,
-    "step_width_m": 3,
+    "stride_length_m": 2,
+    "step_width_m": 2,
     "cadence_steps_per_min": 1,
     "speed_m_per_s": 2,
 }

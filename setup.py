@@ -52,6 +52,8 @@ setup(
         "ble": ["bleak>=0.21"],
         "test": ["pytest", "hypothesis", "selenium>=4.20"],
         "dev": ["mypy", "pytest-xdist", "ruff", "setuptools", "types-PyYAML"],
+        "docs": ["mkdocs>=1.6"],
+        "dist": ["build>=1.0"],
         "ros": ["ros-jazzy-common-interfaces", "ros-jazzy-rclpy[fastrtps]"],
     },
     entry_points={

@@ -29,6 +29,13 @@ def person():
     return person_track(perfect(rectangle())[0])
 
 
+def write_png(path, width, height):
+    """Write a grey picture."""
+    from matplotlib.image import imsave
+
+    imsave(path, np.full((height, width, 3), 0.5))
+
+
 def metres(origin, degrees):
     """Return east and north by the haversine's small angles, on a sphere of the mean radius."""
     lon, lat = np.radians(degrees - [[origin.longitude, origin.latitude]]).T
@@ -134,9 +141,7 @@ def test_the_bag_holds_the_estimate_under_the_topics_of_the_nodes(person, tmp_pa
 
 
 def test_a_floor_plan_lies_with_its_start_on_the_start(person, tmp_path):
-    from PIL import Image
-
-    Image.new("RGB", (200, 100)).save(tmp_path / "hall.png")
+    write_png(tmp_path / "hall.png", 200, 100)
     plan = FloorPlan.load(tmp_path / "hall.png", 0.05, "20,80,90")
     picture = plan.picture(person)
     assert (picture["width"], picture["height"]) == pytest.approx((10.0, 5.0))
@@ -149,9 +154,7 @@ def test_a_floor_plan_lies_with_its_start_on_the_start(person, tmp_path):
     ("scale", "start"), [(None, "1,2"), (0.0, "1,2"), (0.1, None), (0.1, "1")]
 )
 def test_a_floor_plan_without_scale_or_start_is_refused(tmp_path, scale, start):
-    from PIL import Image
-
-    Image.new("RGB", (2, 2)).save(tmp_path / "hall.png")
+    write_png(tmp_path / "hall.png", 2, 2)
     with pytest.raises(EvaluationError, match="needed"):
         FloorPlan.load(tmp_path / "hall.png", scale, start)
 

@@ -18,8 +18,9 @@ OWN = (
     "*.png",
     "report.html",
     "strides.csv",
-    "person.*",
-    "compare.*",
+    *(f"person.{kind}" for kind in ("tum", "csv", "geojson", "kml", "gpx")),
+    "compare.json",
+    "compare.csv",
     "consistency.json",
     "estimate_bag",
 )

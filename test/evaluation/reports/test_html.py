@@ -61,6 +61,15 @@ def test_the_page_needs_nothing_from_elsewhere():
     assert "http" not in page.replace("http-equiv", "").replace("http://www.w3.org/2000/svg", "")
 
 
+def test_a_date_is_given_only_where_the_stamps_tell_one():
+    track, _ = perfect()
+    assert "Walk of 2023-11-14" in walk_page({"zupt": evaluate(track)}, "a walk")
+    for foot in (track.left, track.right):
+        foot.stamp_ns[:] -= 1_700_000_000_000_000_000
+    young = replace(track, start_ns=int(track.left.stamp_ns[0]))
+    assert "clock of the sensors" in walk_page({"zupt": evaluate(young)}, "a walk")
+
+
 def test_names_cannot_become_markup():
     track, _ = perfect()
     title = "</script><script>alert(1)</script>"

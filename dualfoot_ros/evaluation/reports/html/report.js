@@ -3,6 +3,8 @@
   const page = JSON.parse(document.getElementById("data").textContent);
   const NS = "http://www.w3.org/2000/svg";
   const charts = [];
+  const PAPER = 700; // pixels of a plot on paper, so that its letters have the size of the text
+  let printing = false;
 
   // ---- columns: whole numbers, each the difference to the one before ----------------------------
   const tables = {};
@@ -144,7 +146,8 @@
     }
 
     size() {
-      const width = Math.max(260, Math.round(this.canvas.clientWidth || 700));
+      const screen = Math.max(260, Math.round(this.canvas.clientWidth || PAPER));
+      const width = printing ? PAPER : screen;
       let height = this.spec.kind === "strips" ? 34 + 34 * this.spec.rows.length
         : Math.round(Math.min(300, Math.max(190, width * 0.34)));
       if (this.equal) {
@@ -511,5 +514,11 @@
     width = window.innerWidth;
     for (const chart of charts) chart.draw();
   });
+  for (const name of ["beforeprint", "afterprint"]) {
+    window.addEventListener(name, () => {
+      printing = name === "beforeprint";
+      for (const chart of charts) chart.draw();
+    });
+  }
   document.documentElement.dataset.ready = String(charts.length);
 })();

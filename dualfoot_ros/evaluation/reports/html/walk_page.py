@@ -20,6 +20,9 @@ from .words import duration, in_words
 
 FILE_NAME = "report.html"
 MOST_EVENTS = 500
+FIRST_YEAR = 2000
+"""Stamps from before it count from when a device was switched on."""
+
 SHOWN_EVENTS = (
     EventKind.ALIGNED,
     EventKind.HEADING,
@@ -77,6 +80,8 @@ def walk_page(
 
 def _about(run: Evaluation) -> str:
     start = datetime.fromtimestamp(run.trajectory.start_ns * 1e-9, UTC)
+    if start.year < FIRST_YEAR:
+        return "A walk stamped by the clock of the sensors, tracked by dualfoot_ros"
     return f"Walk of {start:%Y-%m-%d %H:%M:%S} UTC, tracked by dualfoot_ros"
 
 

@@ -23,9 +23,11 @@ COLOURS = (
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#4B3F8F", "#E69F00", "#56B4E9", "#7F3C1D",
     "#3D7A1F", "#B01E5B", "#5C5C5C", "#1B1B1B",
 )  # fmt: skip
-WIDTHS = (5.0, 3.5, 2.4, 1.4)
+WIDTHS = (9.0, 6.0, 3.5, 1.5)
 """Tracks that agree lie on each other: the wide ones first, so that each shows."""
 
+TRUTH_STYLE = {"color": TRUTH, "width": 14, "opacity": 0.4}
+MARKER_STYLE = {"color": MARKER, "style": "dots", "hollow": True, "width": 5}
 SHOWN_AT_FIRST = len(WIDTHS)
 FIGURES = {
     "midpoint_rmse_m": ("RMSE (m)", 3),
@@ -136,35 +138,33 @@ def _caption(entries: Sequence[Entry], bags: int) -> str:
 
 
 def _tracks(index: int, entries: Sequence[Entry]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-    """Return the tables and the series of all tracks of one bag."""
-    tables: dict[str, Any] = {}
-    series: list[dict[str, Any]] = []
+    """Return the tables and the series of all tracks of one bag: truth below, markers on top."""
     first = entries[0].tracks
-    for kind, name, style in (
-        (first.truth, "truth", {"color": TRUTH, "width": 8, "opacity": 0.5}),
-        (first.markers, "floor markers", {"color": MARKER, "style": "dots", "hollow": True}),
-    ):
-        for foot, points in kind.items():
-            key = f"{index}.{name}.{foot}"
-            tables[key] = table({"x": points[:, 0], "y": points[:, 1]})
-            series.append({"name": name, "table": key, "x": "x", "y": "y", **style})
+    curves = [("truth", points, TRUTH_STYLE) for points in first.truth.values()]
     for number_, entry in enumerate(entries):
-        key = f"{index}.{number_}"
-        points = np.mean(list(entry.tracks.estimate.values()), axis=0)
-        tables[key] = table({"x": points[:, 0], "y": points[:, 1]})
-        series.append(
-            {
-                "name": entry.case.label,
-                "color": COLOURS[number_ % len(COLOURS)],
-                "dash": "" if number_ < len(COLOURS) else "5 3",
-                "table": key,
-                "x": "x",
-                "y": "y",
-                "width": WIDTHS[number_ % len(WIDTHS)],
-                "shown": number_ < SHOWN_AT_FIRST,
-            }
-        )
+        person = np.mean(list(entry.tracks.estimate.values()), axis=0)
+        curves.append((entry.case.label, person, _style(number_)))
+    curves += [("floor markers", points, MARKER_STYLE) for points in first.markers.values()]
+    names = [f"{index}.{number_}" for number_ in range(len(curves))]
+    tables = {
+        name: table({"x": points[:, 0], "y": points[:, 1]})
+        for name, (_, points, _) in zip(names, curves, strict=True)
+    }
+    series = [
+        {"name": label, "table": name, "x": "x", "y": "y", **style}
+        for name, (label, _, style) in zip(names, curves, strict=True)
+    ]
     return tables, series
+
+
+def _style(number_: int) -> dict[str, Any]:
+    """Return colour, dash and width of the track of a case by its number."""
+    return {
+        "color": COLOURS[number_ % len(COLOURS)],
+        "dash": "" if number_ < len(COLOURS) else "5 3",
+        "width": WIDTHS[number_ % len(WIDTHS)],
+        "shown": number_ < SHOWN_AT_FIRST,
+    }
 
 
 def _map(

@@ -9,7 +9,7 @@ OUTPUT := demo_output
 WORKERS := 2
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test pytest lint format types config golden bags bench clean
+.PHONY: help demo test pytest lint format types config docs dist golden bags bench clean
 
 help: ## show the targets
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sort | sed -E 's/^([a-z]+):.*## /\1|/' \
@@ -46,6 +46,24 @@ format: $(VENV)/.installed ## format the code with ruff
 
 config: $(VENV)/.installed ## write the generated files of config/ from the declarations
 	@$(BIN)/python scripts/write_config.py
+
+docs: $(VENV)/.docs ## build docs/ as a site in build/site; a broken link is an error
+	@$(BIN)/mkdocs build --strict --quiet
+	@echo build/site/index.html
+
+$(VENV)/.docs: $(VENV)/.installed
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
+	@touch $@
+
+dist: $(VENV)/.dist ## build wheel and source distribution in dist/, and use the wheel without ROS
+	@rm -rf dist
+	@$(BIN)/python -m build --outdir dist >/dev/null
+	@scripts/check_wheel $(BIN)/python
+	@ls dist/*
+
+$(VENV)/.dist: $(VENV)/.installed
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[dist]"
+	@touch $@
 
 golden: $(VENV)/.kernel ## write the golden tracks of the tests anew (and say why in the commit)
 	@$(BIN)/python scripts/golden_tracks.py

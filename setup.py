@@ -27,6 +27,7 @@ setup(
     package_dir={f"{NAME}.config": "config"},
     package_data={
         f"{NAME}.config": ["*.yaml", "nodes/*.yaml", "paper_noise/*.yaml", "rviz/*.rviz"],
+        f"{NAME}.evaluation.reports.html": ["*.css", "*.js"],
         NAME: ["py.typed"],
     },
     data_files=[
@@ -51,8 +52,10 @@ setup(
     ],
     extras_require={
         "ble": ["bleak>=0.21"],
-        "test": ["pytest", "hypothesis"],
+        "test": ["pytest", "hypothesis", "selenium>=4.20"],
         "dev": ["mypy", "pytest-xdist", "ruff", "setuptools", "types-PyYAML"],
+        "docs": ["mkdocs>=1.6"],
+        "dist": ["build>=1.0"],
         "ros": ["ros-jazzy-common-interfaces", "ros-jazzy-rclpy[fastrtps]"],
     },
     entry_points={

@@ -1,5 +1,6 @@
 """The package as others install it: with colcon, with pip, on a stock ROS 2 and without one."""
 
+import ast
 import os
 import re
 import shutil
@@ -62,15 +63,59 @@ def test_colcon_test_finds_pytest(setup_arguments):
     assert "pytest" in setup_arguments["extras_require"]["test"]
 
 
-def test_every_imported_ros_package_is_declared(manifest):
+ROS_PACKAGES = {"rclpy", "std_srvs", "launch", "launch_ros", "ament_index_python"}
+KEYS = {"serial": "python3-serial", "yaml": "python3-yaml", "rosbags": "python3-rosbags-pip"}
+OPTIONAL = {"bleak"}  # of the extra "ble"; a sentence says so where it is missing
+DISTRIBUTIONS = {"serial": "pyserial", "yaml": "PyYAML"}
+
+
+def imported(*patterns):
+    """Return the outermost names of everything that files import from outside."""
+    names = set()
+    for path in (path for pattern in patterns for path in ROOT.glob(pattern)):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                names |= {alias.name.partition(".")[0] for alias in node.names}
+            elif isinstance(node, ast.ImportFrom) and node.level == 0:
+                names.add(node.module.partition(".")[0])
+    return names - set(sys.stdlib_module_names) - {"dualfoot_ros"}
+
+
+def is_ros(name):
+    return name.endswith(("_msgs", "_interfaces")) or name in ROS_PACKAGES
+
+
+def test_every_import_is_declared_for_ros(manifest):
     declared = {each.text for each in manifest.iter("exec_depend")}
-    imported = set()
-    for path in [*(ROOT / "dualfoot_ros").rglob("*.py"), *(ROOT / "launch").glob("*.py")]:
-        for name in re.findall(r"^\s*from (\w+)(?:\.\w+)* import", path.read_text(), re.M):
-            if name.endswith("_msgs") or name in ("rclpy", "std_srvs", "launch", "launch_ros"):
-                imported.add(name)
-    imported |= {"builtin_interfaces"}
-    assert imported <= declared
+    names = imported("dualfoot_ros/**/*.py", "launch/*.py") - OPTIONAL
+    wanted = {name if is_ros(name) else KEYS.get(name, f"python3-{name}") for name in names}
+    assert wanted <= declared
+    assert declared <= wanted | {"rcl_interfaces"}
+
+
+def test_every_import_outside_of_ros_is_declared_for_pip(setup_arguments):
+    required = {re.split(r"[<>=\[]", each)[0] for each in setup_arguments["install_requires"]}
+    names = {name for name in imported("dualfoot_ros/**/*.py") if not is_ros(name)} - OPTIONAL
+    assert {DISTRIBUTIONS.get(name, name) for name in names} == required
+
+
+def test_the_citation_names_this_version(manifest):
+    import yaml
+
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert citation["version"] == manifest.findtext("version")
+    assert citation["license"] == manifest.findtext("license")
+    papers = (ROOT / "docs" / "reference" / "notation.md").read_text(encoding="utf-8")
+    assert all(f"doi {paper['doi']}" in papers for paper in citation["references"])
+
+
+def test_every_page_of_the_documentation_is_in_the_site():
+    import yaml
+
+    nav = yaml.safe_load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))["nav"]
+    listed = set(re.findall(r"[\w/]+\.md", str(nav)))
+    pages = {str(path.relative_to(ROOT / "docs")) for path in (ROOT / "docs").rglob("*.md")}
+    assert listed == pages
 
 
 def test_every_console_script_is_a_function_that_exists(setup_arguments):
@@ -156,7 +201,7 @@ def test_make_names_its_targets_without_an_environment():
         pytest.skip("make is not installed")
     done = subprocess.run([make, "-C", str(ROOT)], check=False, capture_output=True, text=True)
     assert done.returncode == 0
-    for target in ("demo", "test", "bags", "clean"):
+    for target in ("demo", "test", "bags", "docs", "dist", "clean"):
         assert f"make {target} " in done.stdout
 
 

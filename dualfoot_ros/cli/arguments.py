@@ -114,8 +114,11 @@ def add_json_argument(parser: Arguments) -> None:
 
 
 def add_report_arguments(parser: Arguments) -> None:
-    """Add ``-o DIR`` of the verbs that write a report."""
+    """Add ``-o DIR`` and ``--overwrite`` of the verbs that write a report."""
     parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder for the files")
+    parser.add_argument(
+        "--overwrite", action="store_true", help="replace an earlier report in DIR"
+    )
 
 
 def add_no_plots_argument(parser: Arguments, about: str = "write no figures to DIR") -> None:

@@ -92,7 +92,7 @@ def run(args: argparse.Namespace) -> int:
 
     check_counts(args, repeat=20)
     if args.output is not None:
-        check_directory(args.output)
+        check_directory(args.output, overwrite=args.overwrite)
     jobs = _jobs(args, _cases(args))
     entries, failures = _run(jobs, args.jobs or default_jobs())
     print_failures("compare", failures)
@@ -185,12 +185,14 @@ def _write(
     document: dict[str, Any],
 ) -> list[Path]:
     from ..evaluation.reports import csv_text, report_folder, write_json
+    from ..evaluation.reports.html import write_comparison_page
 
     with report_folder(args.output) as folder:
         paths = [write_json(folder / "compare.json", document), folder / "compare.csv"]
         paths[1].write_text(csv_text(rows), encoding="utf-8")
         if not args.no_plots:
             paths += _draw(entries, rows, folder)
+            paths.append(write_comparison_page(folder, entries, rows, document["failed"]))
     return [args.output / path.name for path in paths]
 
 

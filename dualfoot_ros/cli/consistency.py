@@ -65,7 +65,7 @@ def run(args: argparse.Namespace) -> int:
 
     check_counts(args, walks=10000)
     if args.output is not None:
-        check_directory(args.output)
+        check_directory(args.output, overwrite=args.overwrite)
     config = tracker_config(args)
     walks, failures = _run(_jobs(args, config), args.jobs or default_jobs())
     print_failures("consistency", failures)

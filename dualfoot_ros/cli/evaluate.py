@@ -22,19 +22,23 @@ from .arguments import (
     load_bag,
     tracker_config,
 )
+from .export_options import ExportOptions, add_export_arguments, write_exports
 from .printing import print_json, print_paths, table_console
 from .self_calibration import self_calibration
 
 if TYPE_CHECKING:
     from ..calibration import BiasMemory
     from ..evaluation import Evaluation, RunOptions
+    from ..evaluation.exports import FloorPlan
     from ..recording import Correction
 
 HELP = "run one method on a bag and evaluate the tracks of both feet"
 EXAMPLES = """\
 examples:
   dualfoot evaluate walk                            the figures as a table; nothing is written
-  dualfoot evaluate walk -o report                  also TUM files, plots and metrics.json
+  dualfoot evaluate walk -o report                  also report.html, TUM files, metrics.json ...
+  dualfoot evaluate walk -o report --origin 48.1486,11.5680,90   also GeoJSON, KML, GPX
+  dualfoot evaluate walk -o report --floor-plan hall.png --scale 0.02 --start-pixel 310,940,90
   dualfoot evaluate walk --method zupt --json       one JSON object on standard output
   dualfoot evaluate walk --set idc.distance=0.2     another value of one parameter
   dualfoot evaluate walk --set aids.barometer=true  height from the air pressure in the bag
@@ -77,6 +81,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_json_argument(parser)
     add_no_plots_argument(parser)
     _add_alignment(parser)
+    add_export_arguments(parser)
     add_usable_arguments(parser)
 
 
@@ -113,8 +118,9 @@ def run(args: argparse.Namespace) -> int:
     from ..calibration import BiasMemory, for_feet
     from ..evaluation.reports import check_directory
 
+    ExportOptions.of(args)  # refused before the work is done
     if args.output is not None:
-        check_directory(args.output)
+        check_directory(args.output, overwrite=args.overwrite)
     calibration = for_feet(args.calibration)
     memory = BiasMemory() if args.bias_memory is None else BiasMemory.load(args.bias_memory)
     config = tracker_config(args)
@@ -165,15 +171,37 @@ def _options(args: argparse.Namespace, calibration: Mapping[str, Correction]) ->
 
 
 def _write(args: argparse.Namespace, result: Evaluation, metrics: dict[str, Any]) -> list[Path]:
-    from ..evaluation.reports import METRICS, report_folder, write_json, write_tracks
+    from ..evaluation.reports import (
+        METRICS,
+        report_folder,
+        write_json,
+        write_strides,
+        write_tracks,
+    )
 
+    exports = ExportOptions.of(args)
     with report_folder(args.output) as folder:
         paths = [write_json(folder / METRICS, metrics), *write_tracks(folder, result)]
+        paths.append(write_strides(folder, result))
+        paths += write_exports(folder, result, exports)
         if not args.no_plots:
-            from ..evaluation.reports.plots import draw_all
-
-            paths += draw_all({result.trajectory.method: result}, folder, Path(args.bag).name)
+            paths += _draw(args, folder, result, metrics["parameters"], exports.floor_plan)
     return [args.output / path.name for path in paths]
+
+
+def _draw(
+    args: argparse.Namespace,
+    folder: Path,
+    result: Evaluation,
+    parameters: Mapping[str, Any],
+    floor_plan: FloorPlan | None,
+) -> list[Path]:
+    from ..evaluation.reports.html import write_walk_page
+    from ..evaluation.reports.plots import draw_all
+
+    runs, title = {result.trajectory.method: result}, Path(args.bag).name
+    page = write_walk_page(folder, runs, title, parameters, floor_plan)
+    return [*draw_all(runs, folder, title), page]
 
 
 def _print(

@@ -5,6 +5,7 @@ from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options
 from .frames.yaw_transform import Align, Pair
 from .notes import config_notes
+from .person import PersonTrack, person_track
 from .plain import plain
 from .published import published_trajectory
 from .reports.demo_table import Report, demo_report
@@ -17,6 +18,7 @@ __all__ = [
     "EvaluationError",
     "Options",
     "Pair",
+    "PersonTrack",
     "Report",
     "RunOptions",
     "as_live",
@@ -24,6 +26,7 @@ __all__ = [
     "demo_report",
     "evaluate",
     "pair_samples",
+    "person_track",
     "plain",
     "published_trajectory",
     "run",

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core import EvaluationError, EventKind, FootTrajectory, IntArray, Trajectory
+from ..core import FEET, EvaluationError, EventKind, FootTrajectory, IntArray, Trajectory
 from ..inspection import Finding
 from ..recording import Reference
 from ..settings import PersonConfig
@@ -24,6 +24,7 @@ from .frames.gauge import (
     to_markers,
 )
 from .frames.yaw_transform import Align, YawTransform
+from .gait import Gait, strides_of, summarise
 from .metrics.accuracy import Errors, StrideErrors, heading_error, position_errors, stride_errors
 from .metrics.closure import Closure, closure
 from .metrics.foot_passings import FeetReport, feet_report
@@ -63,6 +64,7 @@ class Evaluation:
     options, transforms : of the alignment (no transforms without a reference)
     aligned_to : "truth", "markers" or None
     closed_loop : the reference says that each foot ends where it started
+    gait : gait parameters of the whole walk, which no alignment changes
     notes : sentences for the reader of the figures
     findings : warnings about the recording, where :func:`run` looked for them
     run_s : s, CPU time of pairing and tracking, where :func:`run` did them
@@ -80,6 +82,7 @@ class Evaluation:
     closure: Closure | None
     closed_loop: bool
     feet: FeetReport
+    gait: Gait
     notes: tuple[str, ...]
     findings: tuple[Finding, ...] = ()
     run_s: float | None = None
@@ -114,12 +117,20 @@ class Evaluation:
                 "closure": self.closure and asdict(self.closure),
                 "feet": asdict(self.feet),
                 "trust": asdict(trust_report(self.tracked, TRUST_LIMIT_M)),
+                "gait": self._gait(),
                 "events": event_counts(track),
                 "counters": dict(track.counters),
                 "notes": list(self.notes),
             }
         )
         return figures
+
+    def _gait(self) -> dict[str, Any]:
+        return {
+            "strides": {foot: self.gait.count(foot) for foot in FEET},
+            "steady_strides": {foot: self.gait.count(foot, steady=True) for foot in FEET},
+            "parameters": {name: asdict(own) for name, own in self.gait.parameters.items()},
+        }
 
     def _alignment(self) -> dict[str, Any]:
         aligned = self.aligned_to is not None
@@ -172,6 +183,7 @@ def evaluate(
         closure=closure(trajectory.left, trajectory.right, length),
         closed_loop=reference is not None and reference.closed_loop,
         feet=_feet(moved, truth),
+        gait=summarise(strides_of(tracked.left, tracked.right)),
         notes=(
             *refusal_notes(trajectory.counters),
             *pressure_notes(trajectory.counters),

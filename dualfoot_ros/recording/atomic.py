@@ -80,7 +80,7 @@ def new_files(directory: Path, *, replacing: Sequence[str] = ()) -> Iterator[Pat
         yield scratch
         directory.mkdir(exist_ok=True)
         for stale in (path for pattern in replacing for path in directory.glob(pattern)):
-            stale.unlink()
+            shutil.rmtree(stale) if stale.is_dir() else stale.unlink()
         for path in scratch.iterdir():
             path.replace(directory / path.name)
 

@@ -14,6 +14,16 @@ if TYPE_CHECKING:
     from rosbags.rosbag2 import Reader
 
 METADATA = "metadata.yaml"
+HEAD = 200  # characters that hold the first key
+
+
+def is_bag(folder: Path) -> bool:
+    """Return whether ``folder`` is that of a rosbag2 recording, whole or damaged."""
+    try:
+        with (folder / METADATA).open(encoding="utf-8", errors="replace") as file:
+            return "rosbag2" in file.read(HEAD)
+    except OSError:
+        return False
 
 
 class TopicInfo(NamedTuple):

@@ -66,7 +66,7 @@ def test_the_report_has_figures_of_tracks_and_sweeps(bags, tmp_path, capsys):
     target = tmp_path / "report"
     arguments = ["--methods", "zupt,idc", "--sweep", "kappa=0.5,0.6", "-o", str(target)]
     assert main(["compare", bags[0], *arguments, "--jobs", "1"]) == 0
-    names = {"compare.json", "compare.csv", "tracks_walk4.png", "sweep_kappa.png"}
+    names = {"compare.json", "compare.csv", "tracks_walk4.png", "sweep_kappa.png", "report.html"}
     assert {path.name for path in target.iterdir()} == names
     assert all(path.stat().st_size > 500 for path in target.iterdir())
     printed = capsys.readouterr().out

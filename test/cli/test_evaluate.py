@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -42,9 +43,41 @@ def test_json_is_one_object_and_nothing_else_whatever_is_written_beside_it(bag, 
     metrics = json.loads(capsys.readouterr().out)
     assert metrics["alignment"]["method"] == "first_strides"
     assert metrics["parameters"]["method"] == metrics["method"]
-    names = {"metrics.json", "left.tum", "right.tum", "left_truth.tum", "right_truth.tum"}
+    names = {
+        "metrics.json",
+        "strides.csv",
+        "person.tum",
+        "person.csv",
+        "left.tum",
+        "right.tum",
+        "left_truth.tum",
+        "right_truth.tum",
+    }
     assert {p.name for p in target.iterdir()} == names
     assert sorted(metrics["files"]) == sorted(str(p) for p in target.iterdir())
+
+
+def test_exports_are_written_where_they_are_asked_for_and_need_a_folder(bag, tmp_path, capsys):
+    target = tmp_path / "report"
+    asked = ["--origin", "48.1,11.5,90", "--estimate-bag"]
+    assert main(["evaluate", bag, "--no-plots", "-o", str(target), *asked]) == 0
+    names = {p.name for p in target.iterdir()}
+    assert {"person.geojson", "person.kml", "person.gpx", "estimate_bag"} <= names
+    assert main(["evaluate", bag, "--no-plots", "-o", str(target), *asked]) == 2
+    assert "--overwrite" in capsys.readouterr().err
+    again = ["--overwrite", "--no-plots", "-o", str(target), *asked]
+    assert main(["evaluate", bag, *again]) == 0
+    assert main(["evaluate", bag, *asked]) == 2
+    assert "-o DIR" in capsys.readouterr().err
+    assert main(["evaluate", bag, "--scale", "0.1", "-o", str(tmp_path / "new")]) == 2
+    assert "--floor-plan" in capsys.readouterr().err
+
+
+def test_a_report_is_not_written_into_the_bag_it_is_about(bag, capsys):
+    before = sorted(Path(bag).iterdir())
+    assert main(["evaluate", bag, "-o", bag, "--overwrite"]) == 2
+    assert "outside" in capsys.readouterr().err
+    assert sorted(Path(bag).iterdir()) == before
 
 
 def test_the_paths_of_the_plots_are_printed_and_exist(bag, tmp_path, capsys):

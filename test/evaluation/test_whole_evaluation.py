@@ -13,7 +13,7 @@ from dualfoot_ros.core.samples.series import PoseSeries
 from dualfoot_ros.evaluation.evaluate import evaluate
 from dualfoot_ros.evaluation.frames.gauge import Options
 from dualfoot_ros.evaluation.frames.yaw_transform import Align, Pair, YawTransform
-from dualfoot_ros.evaluation.reports.tum import write_tracks
+from dualfoot_ros.evaluation.reports.text_files import write_tracks
 from dualfoot_ros.recording.reference import Reference
 
 from .walks import perfect, rectangle

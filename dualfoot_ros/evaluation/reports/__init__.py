@@ -3,7 +3,7 @@
 from .comparison_rows import csv_text, flat
 from .comparison_tables import tables
 from .output import METRICS, check_directory, report_folder, write_json
-from .tum import write_tracks
+from .text_files import write_strides, write_tracks
 from .walk_table import number, walk_table
 
 __all__ = [
@@ -16,5 +16,6 @@ __all__ = [
     "tables",
     "walk_table",
     "write_json",
+    "write_strides",
     "write_tracks",
 ]

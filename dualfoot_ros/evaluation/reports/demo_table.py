@@ -12,9 +12,10 @@ from ...recording import Recording
 from ..evaluate import Evaluation, evaluate
 from ..frames.gauge import Options
 from ..track import truth_of
+from .html import write_walk_page
 from .output import METRICS, report_folder, write_json
 from .plots import draw_all
-from .tum import write_tracks
+from .text_files import write_tracks
 from .walk_table import methods_table
 
 if TYPE_CHECKING:
@@ -79,7 +80,9 @@ def demo_report(
             p for name, run in evaluations.items() for p in write_tracks(folder, run, f"{name}_")
         ]
         written = (*figures, *tracks)
-        paths = tuple(target / path.name for path in written)
-        report = Report(title, evaluations, (*paths, target / METRICS))
+        best_first = dict(reversed(evaluations.items()))  # the demonstration ends with the default
+        page = write_walk_page(folder, best_first, title)
+        paths = tuple(target / path.name for path in (*written, folder / METRICS, page))
+        report = Report(title, evaluations, paths)
         write_json(folder / METRICS, report.to_dict())
     return report

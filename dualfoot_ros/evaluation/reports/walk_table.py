@@ -6,12 +6,25 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from ...core import FEET
 from ..evaluate import Evaluation
 from ..frames.association import Footfalls
+from ..gait import PARAMETERS
 from ..metrics.accuracy import Statistics
 
 if TYPE_CHECKING:
     from rich.table import Table
+
+SHOWN_GAIT = {
+    "stride_length_m": 2,
+    "step_width_m": 2,
+    "cadence_steps_per_min": 1,
+    "speed_m_per_s": 2,
+}
+"""Gait parameters in the table, with their digits."""
+
+MOST_MARKS = 5
+"""Rows of "error at N m" on long walks; the files have all of them."""
 
 Row = tuple[str, str, str, str]
 COLUMNS = (
@@ -36,11 +49,17 @@ def walk_table(run: Evaluation, title: str) -> Table:
         ("both feet", "right"),
     ):
         table.add_column(name, justify=side)  # type: ignore[arg-type]
-    for section in (_walk(run), _truth(run), _markers(run), _closure(run), _feet(run)):
+    for section in sections(run):
         for row in section:
             table.add_row(*row)
         table.add_section()
     return table
+
+
+def sections(run: Evaluation) -> list[list[Row]]:
+    """Return the rows (name, left, right, both feet) of what is known, section by section."""
+    parts = (_walk(run), _truth(run), _markers(run), _closure(run), _feet(run), _gait(run))
+    return [rows for part in parts if (rows := list(part))]
 
 
 def number(value: float | None, digits: int = 2) -> str:
@@ -69,7 +88,7 @@ def _truth(run: Evaluation) -> Iterator[Row]:
     for label, name in names.items():
         left, right, middle = (number(getattr(s, name), 3) for s in sides)
         yield label, left, right, f"mid-point {middle}"
-    for mark in report.midpoint.at_distance_m:
+    for mark in _few(list(report.midpoint.at_distance_m)):
         errors = [number(s.at_distance_m.get(mark), 3) for s in sides]
         yield f"error at {mark} m (m)", errors[0], errors[1], f"mid-point {errors[2]}"
     strides = (report.left_strides, report.right_strides)
@@ -83,6 +102,12 @@ def _truth(run: Evaluation) -> Iterator[Row]:
     nees = report.nees
     positions = number(nees.left_position), number(nees.right_position)
     yield "NEES of position / 3", *positions, f"{number(nees.relative_position)} relative"
+
+
+def _few(marks: list[str]) -> list[str]:
+    """Return at most ``MOST_MARKS`` of the marks, evenly spaced: 800, 1600 ... of 200, 400 ..."""
+    step = math.ceil(len(marks) / MOST_MARKS) or 1
+    return marks[step - 1 :: step]
 
 
 def _markers(run: Evaluation) -> Iterator[Row]:
@@ -125,6 +150,20 @@ def _spread(label: str, spread: Statistics) -> Iterator[Row]:
     both = f"{number(spread.mean, 3)} +- {number(spread.std, 3)}"
     yield f"{label}, mean +- std (m)", "", "", both
     yield "    RMS, max (m)", "", "", f"{number(spread.rms, 3)}, {number(spread.max, 3)}"
+
+
+def _gait(run: Evaluation) -> Iterator[Row]:
+    """Yield the parameters that everybody asks for; the others are in the files of a report."""
+    left, right = (run.gait.count(foot, steady=True) for foot in FEET)
+    if left + right == 0:
+        return
+    yield "steady strides", str(left), str(right), ""
+    for name, digits in SHOWN_GAIT.items():
+        own = run.gait.parameters[name]
+        feet = [
+            f"{number(s.mean, digits)} +- {number(s.std, digits)}" for s in (own.left, own.right)
+        ]
+        yield PARAMETERS[name], feet[0], feet[1], number(own.both.mean, digits)
 
 
 def methods_table(runs: Mapping[str, Evaluation], title: str) -> Table:

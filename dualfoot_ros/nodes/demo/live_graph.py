@@ -31,6 +31,9 @@ from .collector import CollectorNode
 AHEAD = 200  # samples that may be under way between two nodes
 PATIENCE_S = 5.0  # without progress: the missing messages were lost
 SPINS = 50  # between two checks of the progress
+PATIENT = {"input.silence": 60.0, "input.latency": 0.0}
+"""The nodes share one thread: while one compiles, no other is silent, and samples may wait."""
+
 Progress = Callable[[float], None]
 
 
@@ -64,13 +67,11 @@ class LiveGraph:
             raise
 
     def _build(self, bag: Path, configs: Mapping[str, TrackerConfig]) -> None:
-        patient = {"input.latency": 0.0}  # as fast as they follow, so samples may wait
-        self.sync = self._add(TimeSyncNode, patient, "")
+        self.sync = self._add(TimeSyncNode, PATIENT, "")
         self.fusions, self.collectors = {}, {}
         for name, config in configs.items():
             space = f"/{name}"
-            own = {"sync": "external", "engine": "compiled"}
-            values = {**config.to_mapping(), **own, **patient}
+            values = {**config.to_mapping(), **PATIENT, "sync": "external", "engine": "compiled"}
             self.fusions[name] = self._add(
                 FusionNode, values, space, cli_args=_remap_inputs(self._space)
             )

@@ -18,6 +18,8 @@ from . import event_messages
 LOGGED = (EventKind.ALIGNED, EventKind.HEADING, EventKind.RESET)
 NO_STANCE_NS = 2_000_000_000
 NOT_SHARED = 0.5  # of the pairs are interpolated; of lost samples that are filled it is less
+MOST_LAG_S = 60.0  # beyond it, the stamps are of another clock
+OTHER_CLOCK = "unknown: the stamps are of another clock (in a replay, set use_sim_time)"
 NIS_MEMORY = 0.99  # of the running mean, a ZUPT of 3 dimensions
 
 
@@ -100,12 +102,12 @@ class FusionReport:
         self._describe_counters(status)
 
     def _describe_tracker(self, status: Status) -> None:
-        tracker, now_ns = self._tracker, self._clock.now().nanoseconds
+        tracker = self._tracker
         status.values |= {
             "method": tracker.config.method,
             "phase": self._phase,
             "engine": tracker.engine,
-            "lag (s)": (now_ns - self._stamp_ns) * 1e-9 if self._stamp_ns else float("nan"),
+            "lag (s)": self._lag(),
             "NIS ratio of ZUPT": self._nis,
             "last constraint innovation (m)": self._correction_m,
         }
@@ -117,6 +119,13 @@ class FusionReport:
         if tracker.phase == "aligning" and tracker.complaint:
             text = f"aligning: stand still ({tracker.complaint})"
             status.note(Finding(FindingKind.ALIGNING, Severity.WARNING, text))
+
+    def _lag(self) -> float | str:
+        """Return the age of the newest estimate, s, where its stamp is of the node's clock."""
+        if not self._stamp_ns:
+            return float("nan")
+        lag_s = (self._clock.now().nanoseconds - self._stamp_ns) * 1e-9
+        return lag_s if abs(lag_s) < MOST_LAG_S else OTHER_CLOCK
 
     def _describe_stances(self, status: Status) -> None:
         for foot in FEET:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import textwrap
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any, TypeVar
 
@@ -17,6 +18,7 @@ from ...core import GROUPS, METHODS, Parameters, ParameterSpec, all_specs, check
 from ...settings import node_parameter_names, reason_read_only
 
 Group = TypeVar("Group", bound=Parameters)
+COLUMNS = 99
 OF_RCLPY = ("use_sim_time", "start_type_description_service")
 
 
@@ -47,7 +49,7 @@ def declare(
         values[spec.name] = value
     for name in given:
         _warn_if_unknown(node, name, values)
-    node.get_logger().info("configuration: " + _format(values))
+    node.get_logger().info("configuration:\n" + _format(values))
     return values
 
 
@@ -91,7 +93,21 @@ def _warn_if_unknown(node: Node, name: str, own: Mapping[str, Any]) -> None:
 
 
 def _format(values: Mapping[str, Any]) -> str:
-    """Return the values as text, without those of methods that are not in use."""
+    """Return the values as text, a line or more a group, without methods that are not in use."""
     idle = set(METHODS) - {values.get("method"), *GROUPS}
-    shown = {name: v for name, v in values.items() if name.partition(".")[0] not in idle}
-    return ", ".join(f"{name}={value}" for name, value in shown.items())
+    groups: dict[str, list[str]] = {}
+    for name, value in values.items():
+        if name.partition(".")[0] not in idle:
+            groups.setdefault(name.rpartition(".")[0], []).append(f"{name}={value}")
+    lines = (
+        textwrap.wrap(
+            ", ".join(items),
+            COLUMNS,
+            initial_indent="  ",
+            subsequent_indent="    ",
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+        for items in groups.values()
+    )
+    return "\n".join(line for wrapped in lines for line in wrapped)

@@ -15,6 +15,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import rclpy
+from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
@@ -77,6 +78,8 @@ def run_nodes(
         return 0
     except DualFootError as error:
         return _refuse(program, str(error))
+    except ParameterException as error:  # of a parameter that rclpy declares: use_sim_time
+        return _refuse(program, f"a parameter of ROS cannot be used: {in_one_line(error)}")
     except OSError as error:
         return _refuse(program, str(error))
     finally:

@@ -15,11 +15,11 @@ from rich.console import Console
 from dualfoot_ros.evaluation import Align, EvaluationError, Options, demo_report, evaluate
 from dualfoot_ros.evaluation.notes import marker_notes, refusal_notes
 from dualfoot_ros.evaluation.plain import plain
-from dualfoot_ros.evaluation.reports.output import report_folder
-from dualfoot_ros.evaluation.reports.plots import draw_all, tracks
+from dualfoot_ros.evaluation.reports.output import check_directory, report_folder
+from dualfoot_ros.evaluation.reports.plots import draw_all, stances, tracks
 from dualfoot_ros.evaluation.reports.plots.error_curves import _in_stance
-from dualfoot_ros.evaluation.reports.tum import write_tracks
-from dualfoot_ros.evaluation.reports.walk_table import walk_table
+from dualfoot_ros.evaluation.reports.text_files import write_tracks
+from dualfoot_ros.evaluation.reports.walk_table import _few, walk_table
 from dualfoot_ros.recording.recording import Recording
 from dualfoot_ros.recording.reference import Reference
 
@@ -157,6 +157,53 @@ def test_a_new_report_replaces_the_old_one_and_nothing_else_in_the_folder(tmp_pa
     with report_folder(tmp_path) as folder:
         (folder / "metrics.json").write_text("new")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["metrics.json", "notes.txt"]
+
+
+@pytest.mark.parametrize("kilometres", [0.5, 1.0, 4.4])
+def test_a_long_walk_has_at_most_five_rows_of_errors_along_the_way(kilometres):
+    marks = [f"{mark:g}" for mark in np.arange(200.0, 1000.0 * kilometres + 1, 200.0)]
+    shown = _few(marks)
+    assert 1 <= len(shown) <= 5
+    steps = np.diff([float(mark) for mark in shown])
+    assert np.ptp(steps) == 0 if len(steps) else True
+    assert _few([]) == []
+
+
+def test_no_legend_searches_for_its_place(tmp_path, monkeypatch):
+    from matplotlib.legend import Legend
+
+    def search(*_):
+        raise AssertionError
+
+    monkeypatch.setattr(Legend, "_find_best_position", search)
+    track, truth = drifted()
+    draw_all({"zupt": evaluate(track, truth=truth)}, tmp_path, "a walk")
+
+
+def test_the_stances_of_an_hour_are_drawn_line_by_line_without_an_end():
+    assert stances._row_s(200.0) == 20.0
+    assert stances._row_s(931.0) * stances.MOST_ROWS >= 931.0
+    assert stances._row_s(3600.0) == stances.LONGEST_ROW_S
+
+
+def test_an_earlier_report_is_replaced_only_when_that_is_asked_for(tmp_path):
+    check_directory(tmp_path / "new")
+    (tmp_path / "notes.txt").write_text("mine")
+    check_directory(tmp_path)
+    (tmp_path / "metrics.json").write_text("{}")
+    with pytest.raises(EvaluationError, match="--overwrite"):
+        check_directory(tmp_path)
+    check_directory(tmp_path, overwrite=True)
+
+
+@pytest.mark.parametrize("inside", [".", "report", "reports/of/today"])
+def test_a_report_never_goes_into_a_recording_not_even_when_asked(tmp_path, inside):
+    (tmp_path / "metadata.yaml").write_text("rosbag2_bagfile_information:\n  version: 9\n")
+    with pytest.raises(EvaluationError, match="outside"):
+        check_directory(tmp_path / inside, overwrite=True)
+    with pytest.raises(EvaluationError, match="outside"), report_folder(tmp_path / inside):
+        pass
+    assert [p.name for p in tmp_path.iterdir()] == ["metadata.yaml"]
 
 
 def test_plain_values_have_no_arrays_no_enums_and_no_not_a_number():

@@ -6,7 +6,7 @@ import pytest
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.results.events import EventKind
 from dualfoot_ros.evaluation import as_live, track
-from dualfoot_ros.nodes.demo.live_graph import run_live, same_bits
+from dualfoot_ros.nodes.demo.live_graph import LiveGraph, run_live, same_bits
 from dualfoot_ros.recording import read_bag
 
 DEMO = Path(__file__).resolve().parents[3] / "bags" / "demo"
@@ -72,3 +72,20 @@ def test_one_changed_bit_is_seen(both):
     from dataclasses import replace
 
     assert not same_bits(live.trajectory, replace(batch, left=replace(batch.left, position=moved)))
+
+
+def test_no_node_of_the_graph_warns_of_its_own_replay():
+    import rclpy
+
+    context = rclpy.Context()
+    rclpy.init(args=["--ros-args", "--log-level", "error"], context=context)
+    graph = None
+    try:
+        graph = LiveGraph(DEMO, {"default": TrackerConfig()}, context)
+        inputs = [graph.sync, *graph.fusions.values()]
+        patience = [node.get_parameter("input.silence").value for node in inputs]
+        assert min(patience) >= 60.0
+    finally:
+        if graph is not None:
+            graph.close()
+        rclpy.try_shutdown(context=context)

@@ -122,3 +122,11 @@ def test_values_tell_phase_and_stances_once_the_feet_have_stood(fusion):
     assert values["phase"] == "standing" and all(values[f"{foot} stance"] for foot in FEET)
     assert values["tracker pairs"] == 200 and values["lag (s)"] == pytest.approx(-1.99)
     assert any("aligned of both" in line for line in fusion.log.infos)
+
+
+def test_the_lag_behind_another_clock_is_not_given_as_a_number(fusion):
+    fusion.track(10**12 - 2 * 10**9)
+    assert fusion.status().values["lag (s)"] == pytest.approx(2.0)
+    old = Bench()
+    old.track(10**12 - 3600 * 10**9)
+    assert "another clock" in old.status().values["lag (s)"]

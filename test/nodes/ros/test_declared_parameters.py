@@ -5,7 +5,7 @@ from rclpy.parameter import Parameter
 from dualfoot_ros.core.config import TrackerConfig, all_specs
 from dualfoot_ros.core.config_groups import ZuptConfig
 from dualfoot_ros.core.errors import ConfigError
-from dualfoot_ros.nodes.ros.declared_parameters import declare, descriptor, group
+from dualfoot_ros.nodes.ros.declared_parameters import COLUMNS, _format, declare, descriptor, group
 
 SPECS = {spec.name: spec for spec in all_specs()}
 
@@ -58,3 +58,13 @@ def test_a_value_of_the_wrong_type_or_range_is_refused_by_name(bench, value):
 def test_a_group_is_the_part_of_the_values_that_it_declares(bench):
     _, values = declared(bench, {"zupt.std": 0.5})
     assert group(ZuptConfig, values, "zupt.") == ZuptConfig(std=0.5)
+
+
+def test_the_configuration_is_logged_in_lines_that_a_terminal_holds():
+    values = TrackerConfig().to_mapping()
+    lines = _format(values).splitlines()
+    assert len(lines) > 10 and all(len(line) <= COLUMNS for line in lines)
+    text = " ".join(" ".join(lines).split())
+    assert f"method={values['method']}" in text
+    assert f"zupt.std={values['zupt.std']}" in text
+    assert "idc." not in text

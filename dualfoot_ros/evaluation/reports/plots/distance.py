@@ -8,13 +8,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ....core import swing_passings
+from ....core import FloatArray, swing_passings
 from ...evaluate import Evaluation, constraint_epochs
 from ...frames.association import seconds
 from .style import GREEN, PINK, TRUTH, new_figure, save
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+LONG_S = 200.0
+"""On longer walks the swings are too near to each other to be told apart."""
+
+BANDS = 700
 
 
 def draw_distance(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
@@ -25,7 +30,7 @@ def draw_distance(runs: Mapping[str, Evaluation], path: Path, title: str) -> Pat
         axis.set_title(name, fontsize=10, loc="left")
         axis.set_ylabel("distance (m)")
         axis.set_ylim(0.0, 1.25 * axis.get_ylim()[1])  # room for the legend
-        axis.legend(loc="upper right", fontsize=8, ncols=4, framealpha=0.9)
+        axis.legend(loc="upper left", fontsize=8, ncols=4, framealpha=0.9)
     axes[-1, 0].set_xlabel("time since start (s)")
     figure.suptitle(f"{title}: distance between the feet", fontsize=11)
     return save(figure, path)
@@ -37,15 +42,32 @@ def _panel(axis: Axes, run: Evaluation) -> None:
     apart = np.linalg.norm(left.position - right.position, axis=1)
     if run.truth is not None:
         true = np.linalg.norm(run.truth[0].position - run.truth[1].position, axis=1)
-        axis.plot(time, true, color=TRUTH, linewidth=1.8, label="truth")
-    axis.plot(time, apart, color="#444444", linewidth=0.6, label="estimate")
+        _curve(axis, time, true, TRUTH, "truth")
+    _curve(axis, time, apart, "#444444", "estimate")
+    dot = 4.0 if time[-1] <= LONG_S else 1.5
     applied = constraint_epochs(run.trajectory)
     refused = constraint_epochs(run.trajectory, accepted=False)
     if len(applied) + len(refused) == 0:
         passed = swing_passings(left.position, right.position, left.stance, right.stance)
-        axis.plot(time[passed.index], passed.distance_m, ".", color=GREEN, label="feet pass")
+        axis.plot(
+            time[passed.index], passed.distance_m, ".", color=GREEN, ms=dot, label="feet pass"
+        )
         return
-    axis.plot(time[applied], apart[applied], "o", color=GREEN, ms=4, label="constraint applied")
+    axis.plot(time[applied], apart[applied], "o", color=GREEN, ms=dot, label="constraint applied")
     if len(refused):
         label = "constraint not applied"
         axis.plot(time[refused], apart[refused], "x", color=PINK, ms=5, label=label)
+
+
+def _curve(axis: Axes, time: FloatArray, values: FloatArray, colour: str, name: str) -> None:
+    """Draw a curve; on a long walk the band between its least and largest values."""
+    if time[-1] <= LONG_S:
+        width = 1.8 if colour == TRUTH else 0.6
+        axis.plot(time, values, color=colour, linewidth=width, label=name)
+        return
+    starts = np.unique(np.linspace(0, len(values) - 1, BANDS).astype(np.int64))
+    low, high = np.minimum.reduceat(values, starts), np.maximum.reduceat(values, starts)
+    label = f"{name}, least to largest"
+    axis.fill_between(
+        time[starts], low, high, step="post", color=colour, alpha=0.45, linewidth=0, label=label
+    )

@@ -13,7 +13,7 @@ from ...evaluate import Evaluation
 from ...frames.association import Footfalls
 from ...metrics.accuracy import heading_error
 from ...metrics.heading_split import split
-from .style import FOOT, GREEN, LINES, PINK, new_figure, save
+from .style import FOOT, GREEN, LINES, PINK, legend_above, new_figure, save
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,7 +37,7 @@ def draw_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
     axes[1, 0].set_ylabel("heading error in stance (deg)")
     axes[1, 0].set_xlabel("distance walked (m)")
     for axis in axes.flat:
-        axis.legend(fontsize=8, ncols=2, framealpha=0.9)
+        legend_above(axis)
     how = next(iter(runs.values())).alignment_name
     figure.suptitle(f"{title}: errors over distance\naligned by {how}", fontsize=10)
     return save(figure, path)
@@ -77,7 +77,7 @@ def draw_marker_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -
     axis.set_ylim(bottom=0.0)
     axis.set_xlabel("distance along the markers (m)")
     axis.set_ylabel("error at the marker (m)")
-    axis.legend(fontsize=8)
+    legend_above(axis, 2)
     how = next(iter(runs.values())).options.words("markers")
     figure.suptitle(f"{title}: errors at the floor markers\naligned by {how}", fontsize=10)
     return save(figure, path)

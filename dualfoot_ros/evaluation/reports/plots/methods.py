@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..comparison_rows import by_case, over_bags
-from .style import FOOT, GREEN, MARKER, PINK, TRUTH, new_figure, save
+from .style import FOOT, GREEN, MARKER, PINK, TRUTH, legend_above, new_figure, save, wrapped
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,7 +40,10 @@ def draw_compared(entries: Sequence[Entry], path: Path, title: str) -> Path:
         lowest.tick_params(labelbottom=True)
     handles, labels = axes.flat[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=5, fontsize=8, frameon=False)
-    figure.suptitle(f"{title}: both feet from above", fontsize=11)
+    how = entries[0].metrics["alignment"]["words"]
+    figure.suptitle(
+        wrapped(f"{title}: both feet from above", f"aligned by {how}", size[0]), fontsize=10
+    )
     return save(figure, path)
 
 
@@ -90,5 +93,5 @@ def draw_sweep(rows: Sequence[dict[str, Any]], name: str, path: Path) -> Path:
         axis.set_ylabel(label)
         axis.set_ylim(bottom=0.0)
         if len(methods) > 1:
-            axis.legend(fontsize=8, frameon=False)
+            legend_above(axis, 2)
     return save(figure, path)

@@ -37,7 +37,7 @@ def draw_consistency(scores: Sequence[Score], path: Path, title: str) -> Path:
         axis.axhline(1.0, color="black", linewidth=0.6)
         axis.set_yscale("log")
         axis.set_title(kind, fontsize=10)
-        axis.legend(fontsize=7, frameon=False)
+        axis.legend(loc="upper left", fontsize=7, frameon=False)
     for axis in axes[-1]:
         axis.set_xlabel("share of the walk (%)")
     for axis in axes[:, 0]:

@@ -13,6 +13,7 @@ from ...frames.association import seconds
 from .style import FOOT, new_figure, save
 
 ROW_S = 20.0
+LONGEST_ROW_S = 100.0  # on which a stance still shows
 MOST_ROWS = 12
 
 
@@ -20,22 +21,29 @@ def draw_stances(run: Evaluation, path: Path, title: str) -> Path:
     """Draw the stances of both feet from the start of the estimate."""
     stamps = run.trajectory.left.stamp_ns
     time = seconds(stamps, int(stamps[0]))
-    rows = max(1, math.ceil(time[-1] / ROW_S))
+    row_s = _row_s(float(time[-1]))
+    rows = max(1, math.ceil(time[-1] / row_s))
     shown = min(rows, MOST_ROWS)
     figure, axes = new_figure(11.0, 1.2 + 0.75 * shown, rows=shown)
     for number, axis in enumerate(axes.flat):
         for level, (foot, track) in enumerate(reversed(run.feet_tracks.items())):
             bars = _bars(time, track.stance)
             axis.broken_barh(bars, (level + 0.1, 0.8), color=FOOT[foot], linewidth=0)
-        axis.set_xlim(number * ROW_S, (number + 1) * ROW_S)
-        axis.set_xticks(np.arange(11) * ROW_S / 10 + number * ROW_S)
+        axis.set_xlim(number * row_s, (number + 1) * row_s)
+        axis.set_xticks(np.arange(11) * row_s / 10 + number * row_s)
         axis.set_ylim(0, 2)
         axis.set_yticks([0.5, 1.5], ["right", "left"])
         axis.grid(visible=False, axis="y")
     axes[-1, 0].set_xlabel("time since start (s)")
-    part = "" if rows == shown else f", the first {shown * ROW_S:g} s of {time[-1]:.0f} s"
+    part = "" if rows == shown else f", the first {shown * row_s:g} s of {time[-1]:.0f} s"
     figure.suptitle(f"{title}: stance phases{part}", fontsize=11)
     return save(figure, path)
+
+
+def _row_s(time_s: float) -> float:
+    """Return the seconds of a line: more on a long walk, so that all of it is shown."""
+    lines = math.ceil(time_s / (MOST_ROWS * ROW_S))
+    return min(max(1, lines) * ROW_S, LONGEST_ROW_S)
 
 
 def _bars(time: np.ndarray, stance: np.ndarray) -> list[tuple[float, float]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,9 @@ TRUTH = "#A8A8A8"
 MARKER = "#000000"
 GREEN = "#009E73"
 PINK = "#CC79A7"
+COLUMNS_AN_INCH = 11
+"""Letters of a title of the usual size."""
+
 LINES = ("-", "--", ":", "-.")
 
 
@@ -34,6 +38,27 @@ def tidy(axis: Axes) -> None:
     axis.spines[["top", "right"]].set_visible(False)
     axis.grid(visible=True, color="#E4E4E4", linewidth=0.6)
     axis.set_axisbelow(True)
+
+
+def wrapped(heading: str, remark: str, width_in: float) -> str:
+    """Return a heading and a remark below it, broken to a figure ``width_in`` inches wide."""
+    columns = max(30, int(width_in * COLUMNS_AN_INCH))
+    return "\n".join([*textwrap.wrap(heading, columns), *textwrap.wrap(remark, columns)])
+
+
+def legend_above(axis: Axes, columns: int = 4) -> None:
+    """Put the legend above the axes, where it hides no line.
+
+    The place "best" would be searched for among all points: minutes on a walk of an hour.
+    """
+    axis.legend(
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        borderaxespad=0.2,
+        ncols=columns,
+        fontsize=8,
+        frameon=False,
+    )
 
 
 def save(figure: Figure, path: Path) -> Path:

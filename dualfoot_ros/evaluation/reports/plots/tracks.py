@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ....core import FEET
 from ...evaluate import Evaluation
 from ...frames.association import Footfalls
-from .style import FOOT, MARKER, TRUTH, new_figure, save
+from .style import FOOT, MARKER, TRUTH, new_figure, save, wrapped
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,6 +21,8 @@ LABEL_IN = 1.5
 
 MOST_DOTS = 80
 """Stances are dotted on walks of no more than this many."""
+
+WIDE = 2.4
 
 
 def draw_tracks(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
@@ -38,21 +41,23 @@ def draw_tracks(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
     figure.legend(
         handles, labels, loc="outside lower center", ncols=columns, fontsize=8, frameon=False
     )
-    figure.suptitle(f"{title}: both feet from above", fontsize=11)
+    how = next(iter(runs.values())).alignment_name
+    heading = f"{title}: both feet from above"
+    figure.suptitle(wrapped(heading, f"aligned by {how}", figure.get_figwidth()), fontsize=10)
     return save(figure, path)
 
 
 def _panel_size(runs: Mapping[str, Evaluation]) -> tuple[float, float]:
     tracks = [f.position[:, :2] for run in runs.values() for f in run.feet_tracks.values()]
     span = np.ptp(np.vstack(tracks), axis=0) + 1.0
-    height = float(np.clip(6.5 * span[1] / span[0], 2.5, 7.5))
+    height = float(np.clip(6.5 * span[1] / span[0], 1.6, 7.5))
     return float(np.clip(height * span[0] / span[1] + 0.9, 3.2, 7.5)), height
 
 
 def _panel(axis: Axes, run: Evaluation) -> None:
     for number, truth in enumerate(run.truth or ()):
         label = "truth" if number == 0 else None
-        axis.plot(*truth.position[:, :2].T, color=TRUTH, linewidth=2.6, label=label)
+        axis.plot(*truth.position[:, :2].T, color=TRUTH, linewidth=3.6, label=label)
     for foot, points in run.markers.items() if run.aligned_to == "markers" else ():
         axis.plot(
             *points[:, :2].T,
@@ -64,8 +69,10 @@ def _panel(axis: Axes, run: Evaluation) -> None:
         )
     for foot, track in run.feet_tracks.items():
         colour = FOOT[foot]
-        axis.plot(*track.position[:, :2].T, color=colour, linewidth=0.9, label=f"{foot} foot")
         stood = Footfalls.of(track).mean(track.position)
+        # On a long walk both lines lie on each other: the first is wide, so that both show.
+        width = WIDE if foot == FEET[0] and len(stood) > MOST_DOTS else 0.9
+        axis.plot(*track.position[:, :2].T, color=colour, linewidth=width, label=f"{foot} foot")
         if len(stood) <= MOST_DOTS:
             axis.plot(*stood[:, :2].T, ".", color=colour, markersize=4)
     _ends(axis, run)

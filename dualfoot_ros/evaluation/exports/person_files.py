@@ -1,0 +1,53 @@
+"""The person's track as TUM and as CSV."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ...core import FloatArray, PoseSeries
+from ..frames.association import seconds
+from ..person import PersonTrack
+from .tum import write_tum
+
+COLUMNS = (
+    "stamp_ns,time_s,x_m,y_m,z_m,floor_m,heading_deg,walked_m,radius_95_m,"
+    "cov_xx_m2,cov_xy_m2,cov_yy_m2,cov_zz_m2"
+)
+
+
+def write_person(directory: Path, person: PersonTrack) -> list[Path]:
+    """Write ``person.tum`` and ``person.csv``; return their paths.
+
+    TUM has one line an epoch: ``seconds x y z qx qy qz qw``, the attitude being the heading alone.
+    """
+    pose = PoseSeries(person.stamp_ns, person.position, heading_quaternions(person.heading))
+    tum = write_tum(directory / "person.tum", pose)
+    return [tum, _write_csv(directory / "person.csv", person)]
+
+
+def heading_quaternions(heading: FloatArray) -> FloatArray:
+    """Return (N, 4) quaternions x y z w of headings (N,) rad."""
+    zero = np.zeros_like(heading)
+    return np.column_stack([zero, zero, np.sin(heading / 2), np.cos(heading / 2)])
+
+
+def _write_csv(path: Path, person: PersonTrack) -> Path:
+    c = person.covariance
+    values = np.column_stack(
+        [
+            seconds(person.stamp_ns, int(person.stamp_ns[0])),
+            person.position,
+            person.floor_m,
+            np.degrees(person.heading),
+            person.walked_m,
+            person.radius_95_m,
+            *(c[:, i, j] for i, j in ((0, 0), (0, 1), (1, 1), (2, 2))),
+        ]
+    )
+    with path.open("w", encoding="ascii", newline="\n") as file:
+        file.write(f"{COLUMNS}\n")
+        for stamp, row in zip(person.stamp_ns.tolist(), values.tolist(), strict=True):
+            file.write(f"{stamp}," + ",".join(f"{value:.6f}" for value in row) + "\n")
+    return path

@@ -1,0 +1,114 @@
+"""Initial contact and lift-off of a foot, from the inclination of its sole.
+
+The zero-velocity stance of the tracker is the foot-flat part of the stance phase: it begins after
+the sole's slap and ends when the heel rises.  Gait laboratories count stance from initial contact
+to lift-off (toe-off).  Both show in the pitch of a shoe (Sabatini et al. 2005; Mariani et al.
+2013): lift-off near the peak of the nose-down rate at push-off, initial contact where the
+nose-up angle before landing is largest and the slap of the sole begins.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core import FloatArray, FootTrajectory, quaternion_matrix
+from ..frames.association import Footfalls, seconds
+
+LEAST_STRIDE_M = 0.3
+MOST_TURN_COSINE = math.cos(math.radians(20.0))
+LEAST_SWING = 5
+"""Samples from stance to stance in which contact and lift-off can be told apart."""
+
+
+@dataclass(frozen=True)
+class FootContacts:
+    """Moments and angles of one foot, one row a stance; nan where there is none.
+
+    Attributes
+    ----------
+    contact_s : (M,) s since the start of the track, the initial contact before each stance
+    lift_off_s : (M,) s, the lift-off after each stance
+    contact_deg, lift_off_deg : (M,) inclination of the sole then, toes up positive, against how
+        the foot stood flat
+    """
+
+    contact_s: FloatArray
+    lift_off_s: FloatArray
+    contact_deg: FloatArray
+    lift_off_deg: FloatArray
+
+
+def find_contacts(track: FootTrajectory) -> FootContacts:
+    """Find initial contacts and lift-offs of a foot; a walk without strides has none."""
+    falls = Footfalls.of(track)
+    found = FootContacts(*(np.full(len(falls), np.nan) for _ in range(4)))
+    forward = forward_axis(track, falls)
+    if forward is None:
+        return found
+    time = seconds(track.stamp_ns, int(track.stamp_ns[0]))
+    pitch = inclination(track, forward)
+    for k in range(len(falls) - 1):
+        first, last = int(falls.bounds[k, 1]) - 1, int(falls.bounds[k + 1, 0])
+        if last - first < LEAST_SWING:
+            continue
+        at = falls.middle[k : k + 2]
+        flat = np.interp(time[first : last + 1], time[at], pitch[at])
+        swing = pitch[first : last + 1] - flat
+        off, on = _moments(time[first : last + 1], swing)
+        found.lift_off_s[k], found.contact_s[k + 1] = off, on
+        angles = np.degrees(np.interp([off, on], time[first : last + 1], swing))
+        found.lift_off_deg[k], found.contact_deg[k + 1] = angles
+    return found
+
+
+def forward_axis(track: FootTrajectory, falls: Footfalls) -> FloatArray | None:
+    """Return the (3,) axis in the sensor that is level and points ahead while the foot stands.
+
+    It is the median direction of the straight strides, so the mounting need not be known; None
+    where there is no such stride.
+    """
+    stood = falls.mean(track.position)
+    matrices = [quaternion_matrix(track.quaternion[at]) for at in falls.middle]
+    ways = np.diff(stood, axis=0)[:, :2]
+    lengths = np.linalg.norm(ways, axis=1)
+    axes = []
+    for k in np.flatnonzero(lengths >= LEAST_STRIDE_M):
+        ahead = np.append(ways[k] / lengths[k], 0.0)
+        axis, after = matrices[k].T @ ahead, matrices[k + 1].T @ ahead
+        if axis @ after >= MOST_TURN_COSINE:
+            axes.append(axis)
+    if not axes:
+        return None
+    middle: FloatArray = np.median(axes, axis=0)
+    return middle / np.linalg.norm(middle)
+
+
+def inclination(track: FootTrajectory, axis: FloatArray) -> FloatArray:
+    """Return the (N,) elevation in rad of a sensor's ``axis`` (3,) above the horizon."""
+    x, y, z, w = track.quaternion.T
+    up = (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))
+    elevation = up[0] * axis[0] + up[1] * axis[1] + up[2] * axis[2]
+    angle: FloatArray = np.arcsin(np.clip(elevation, -1.0, 1.0))
+    return angle
+
+
+def _moments(time: FloatArray, pitch: FloatArray) -> tuple[float, float]:
+    """Return lift-off and initial contact of a swing, s; ``pitch`` (K,) rad, toes up positive."""
+    lowest = max(2, int(np.argmin(pitch)))
+    rate = np.gradient(pitch, time)
+    off = _peak(time, -rate, int(np.argmin(rate[: lowest + 1])))
+    on = _peak(time, pitch, lowest + int(np.argmax(pitch[lowest:])))
+    return off, on
+
+
+def _peak(time: FloatArray, value: FloatArray, index: int) -> float:
+    """Return the moment of the peak at ``index``, of the parabola through three samples."""
+    if not 0 < index < len(value) - 1:
+        return float(time[index])
+    before, top, after = value[index - 1 : index + 2]
+    bend = before - 2 * top + after
+    shift = 0.0 if bend >= 0 else 0.5 * (before - after) / bend
+    return float(time[index] + np.clip(shift, -0.5, 0.5) * (time[index + 1] - time[index]))

@@ -1,0 +1,97 @@
+"""The person between the feet: place, heading, floor, and how well the place is known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core import FloatArray, FootTrajectory, IntArray, Trajectory, quaternion_matrix
+from .frames.association import Footfalls, seconds
+from .gait import forward_axis
+
+CHI2_95_PLANE = 5.991
+"""95 % quantile of chi-square with two degrees of freedom."""
+
+
+@dataclass(frozen=True)
+class PersonTrack:
+    """The track of the person, one row an epoch.
+
+    Attributes
+    ----------
+    stamp_ns : (N,)
+    position : (N, 3) m, midway between the sensors of the feet
+    covariance : (N, 3, 3) m^2, of the position
+    heading : (N,) rad, unwrapped: mean of the directions in which the feet point while they stand
+    floor_m : (N,) m, height of the feet where they stand, from stance to stance
+    walked_m : (N,) m, horizontal distance from stance to stance, mean of the feet
+    """
+
+    stamp_ns: IntArray
+    position: FloatArray
+    covariance: FloatArray
+    heading: FloatArray
+    floor_m: FloatArray
+    walked_m: FloatArray
+
+    @property
+    def radius_95_m(self) -> FloatArray:
+        """Radius (N,) m that holds the true place with 95 %: the longer axis of the ellipse."""
+        return np.sqrt(CHI2_95_PLANE * np.maximum(self.axes[0], 0.0))
+
+    @property
+    def axes(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Variances (N,) m^2 along the longer and shorter axis, and angle of the longer, rad."""
+        xx, yy, xy = (self.covariance[:, i, j] for i, j in ((0, 0), (1, 1), (0, 1)))
+        middle, half = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
+        return middle + half, np.maximum(middle - half, 0.0), 0.5 * np.arctan2(2 * xy, xx - yy)
+
+
+def person_track(trajectory: Trajectory) -> PersonTrack:
+    """Return the person's track of both feet."""
+    feet = trajectory.left, trajectory.right
+    left, right = feet
+    mean = (left.position_covariance + right.position_covariance) / 2
+    # Var((l + r) / 2) = (P_l + P_r) / 2 - Var(l - r) / 4; without the latter, an upper bound.
+    joint = mean - trajectory.relative_covariance / 4
+    covariance = np.where(np.isnan(joint), mean, joint)
+    falls = [Footfalls.of(foot) for foot in feet]
+    walked = [f.walked(foot.position, foot.stamp_ns) for f, foot in zip(falls, feet, strict=True)]
+    floors = [_held(foot, f, foot.position[:, 2]) for f, foot in zip(falls, feet, strict=True)]
+    headings = [_heading(foot, f) for f, foot in zip(falls, feet, strict=True)]
+    return PersonTrack(
+        stamp_ns=left.stamp_ns,
+        position=(left.position + right.position) / 2,
+        covariance=covariance,
+        heading=_mean_heading(*headings),
+        floor_m=(floors[0] + floors[1]) / 2,
+        walked_m=(walked[0] + walked[1]) / 2,
+    )
+
+
+def _held(foot: FootTrajectory, falls: Footfalls, values: FloatArray) -> FloatArray:
+    """Return ``values`` (N,) as they are in the middles of the stances, joined by lines."""
+    if len(falls) == 0:
+        return values
+    time = seconds(foot.stamp_ns, int(foot.stamp_ns[0]))
+    held: FloatArray = np.interp(time, time[falls.middle], values[falls.middle])
+    return held
+
+
+def _heading(foot: FootTrajectory, falls: Footfalls) -> FloatArray:
+    """Return the heading (N,) of a foot, rad; zero for a foot that made no straight stride."""
+    axis = forward_axis(foot, falls)
+    if axis is None:
+        return np.zeros(len(foot))
+    ahead = np.array([quaternion_matrix(foot.quaternion[at]) @ axis for at in falls.middle])
+    stood = np.full(len(foot), np.nan)
+    stood[falls.middle] = np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0]))
+    return _held(foot, falls, stood)
+
+
+def _mean_heading(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the mean of two unwrapped headings (N,), whole turns apart or not."""
+    turns = np.round((right[0] - left[0]) / (2 * np.pi)) * 2 * np.pi if len(left) else 0.0
+    mean: FloatArray = (left + right - turns) / 2
+    return mean

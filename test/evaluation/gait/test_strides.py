@@ -1,0 +1,192 @@
+"""Gait parameters: on walks by formula, and against the exact truth of the simulator."""
+
+import csv
+import io
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from benchmark.gait_accuracy import true_strides
+from dualfoot_ros.evaluation import evaluate, pair_samples, track_samples
+from dualfoot_ros.evaluation.gait import (
+    PARAMETERS,
+    Stride,
+    find_contacts,
+    strides_csv,
+    strides_of,
+    summarise,
+)
+from dualfoot_ros.recording import Recording
+from dualfoot_ros.simulation import WalkConfig, simulate
+
+from ..walks import SPACING, perfect
+
+
+@pytest.fixture(scope="module")
+def simulated():
+    """Return estimated and true strides of one simulated walk, and its duration."""
+    made = simulate(WalkConfig.from_mapping({"route": "rectangle", "laps": 2}), seed=4)
+    tracked = track_samples(pair_samples(Recording(made.left, made.right)))
+    return strides_of(tracked.left, tracked.right), true_strides(made)
+
+
+def matched(estimated, true):
+    """Return pairs of the same steady stride."""
+    pairs = [
+        (e, t)
+        for t in true
+        for e in estimated
+        if e.foot == t.foot and abs(e.end_ns - t.end_ns) < 200_000_000
+    ]
+    return [(e, t) for e, t in pairs if e.steady and t.steady]
+
+
+def straight_walk() -> tuple[Stride, ...]:
+    track, _ = perfect()
+    return strides_of(track.left, track.right)
+
+
+def test_strides_of_a_straight_walk_have_the_lengths_that_were_walked():
+    strides = straight_walk()
+    right = [s for s in strides if s.foot == "right"]
+    assert len(right) == 20
+    assert [s.stride_length_m for s in right] == pytest.approx([1.2] * 20)
+    assert [s.step_length_m for s in right[1:-1]] == pytest.approx([0.6] * 18)
+    assert [s.step_width_m for s in right] == pytest.approx([SPACING] * 20)
+    assert [s.turn_deg for s in right] == pytest.approx([0.0] * 20, abs=1e-9)
+    assert [s.rise_m for s in right] == pytest.approx([0.0] * 20)
+
+
+def test_the_two_steps_of_a_stride_make_up_its_length():
+    strides = straight_walk()
+    left = [s for s in strides if s.foot == "left"][2:-2]
+    right = {s.number: s for s in strides if s.foot == "right"}
+    for own in left:
+        before = right[own.number - 1]
+        assert own.step_length_m + before.step_length_m == pytest.approx(own.stride_length_m)
+
+
+def test_crossed_feet_have_a_negative_step_width():
+    track, _ = perfect()
+    crossed = strides_of(track.right, track.left)
+    assert all(s.step_width_m < 0 for s in crossed if not math.isnan(s.step_width_m))
+
+
+def test_a_slope_is_no_clearance_and_a_lifted_foot_is():
+    track, _ = perfect()
+    x = track.left.position[:, 0]
+    for foot in (track.left, track.right):
+        foot.position[:, 2] += 0.1 * foot.position[:, 0]
+    swings = ~track.left.stance
+    track.left.position[:, 2] += np.where(swings, 0.05, 0.0)
+    assert np.ptp(x) > 0
+    strides = [s for s in strides_of(track.left, track.right) if s.stride_length_m > 1.0]
+    lifted = [s.clearance_m for s in strides if s.foot == "left"]
+    level = [s.clearance_m for s in strides if s.foot == "right"]
+    assert lifted == pytest.approx([0.05] * len(lifted), abs=1e-6)
+    assert level == pytest.approx([0.0] * len(level), abs=1e-6)
+
+
+def test_a_walk_that_is_turned_and_shifted_has_the_same_strides():
+    track, truth = perfect()
+    own = evaluate(track, truth=truth)
+    turned = [replace(foot) for foot in (track.left, track.right)]
+    for foot in turned:
+        foot.position[:] = foot.position @ np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1.0]]) + 5.0
+    moved = strides_of(*turned)
+    assert [s.stride_length_m for s in moved] == pytest.approx(
+        [s.stride_length_m for s in own.gait.strides]
+    )
+
+
+def test_standing_feet_have_no_strides_and_no_contacts():
+    track, _ = perfect()
+    still = replace(
+        track.left,
+        position=np.zeros_like(track.left.position),
+        stance=np.ones(len(track.left), dtype=bool),
+    )
+    assert strides_of(still, still) == ()
+    assert np.isnan(find_contacts(still).contact_s).all()
+    gait = summarise(())
+    assert gait.parameters["stride_length_m"].both.mean is None
+
+
+def test_stance_and_swing_make_up_the_stride_and_the_stride_makes_the_cadence(simulated):
+    estimated, _ = simulated
+    steady = [s for s in estimated if s.steady]
+    assert len(steady) > 40
+    for s in steady:
+        assert s.stance_time_s + s.swing_time_s == pytest.approx(s.stride_time_s)
+        assert s.cadence_steps_per_min * s.stride_time_s == pytest.approx(120.0)
+        assert s.speed_m_per_s * s.stride_time_s == pytest.approx(s.stride_length_m)
+        assert s.stance_percent == pytest.approx(100 * s.stance_time_s / s.stride_time_s)
+
+
+@pytest.mark.parametrize(
+    ("name", "bias", "spread"),
+    [
+        ("stride_length_m", 0.01, 0.025),
+        ("step_length_m", 0.01, 0.05),
+        ("step_width_m", 0.06, 0.05),
+        ("stride_time_s", 0.002, 0.005),
+        ("stance_time_s", 0.02, 0.01),
+        ("swing_time_s", 0.02, 0.01),
+        ("cadence_steps_per_min", 0.2, 0.5),
+        ("speed_m_per_s", 0.01, 0.025),
+        ("clearance_m", 0.01, 0.01),
+        ("contact_deg", 2.0, 2.0),
+        ("lift_off_deg", 10.0, 2.5),
+        ("turn_deg", 0.3, 1.5),
+    ],
+)
+def test_each_parameter_is_near_the_truth_of_the_simulator(simulated, name, bias, spread):
+    pairs = matched(*simulated)
+    assert len(pairs) > 40
+    error = np.array([getattr(e, name) - getattr(t, name) for e, t in pairs])
+    error = error[np.isfinite(error)]
+    assert abs(error.mean()) < bias
+    assert error.std() < spread
+
+
+def test_a_corner_is_turned_stride_by_stride(simulated):
+    estimated, _ = simulated
+    for foot in ("left", "right"):
+        turned = sum(s.turn_deg for s in estimated if s.foot == foot)
+        assert abs(turned) == pytest.approx(720.0, abs=20.0)
+
+
+def test_a_limp_is_asymmetry_and_not_variability():
+    strides = [s for s in straight_walk() if s.foot == "left"][1:-1]
+    left = [replace(s, steady=True, stance_time_s=0.60) for s in strides]
+    right = [replace(s, steady=True, foot="right", stance_time_s=0.66) for s in strides]
+    found = summarise(left + right).parameters["stance_time_s"]
+    assert found.symmetry_percent == pytest.approx(100 * 0.06 / 0.63)
+    assert found.both.std == pytest.approx(0.0, abs=1e-12)
+    assert found.both.mean == pytest.approx(0.63)
+
+
+def test_the_csv_has_one_row_a_stride_and_empty_cells_for_what_is_not_known(simulated):
+    estimated, _ = simulated
+    rows = list(csv.DictReader(io.StringIO(strides_csv(estimated))))
+    assert len(rows) == len(estimated)
+    assert float(rows[5]["stride_length_m"]) == pytest.approx(
+        estimated[5].stride_length_m, abs=1e-6
+    )
+    assert rows[0]["stride_time_s"] == ""
+    assert int(rows[3]["start_ns"]) == estimated[3].start_ns
+
+
+def test_the_figures_of_an_evaluation_hold_every_parameter():
+    track, truth = perfect()
+    figures = evaluate(track, truth=truth).to_dict()["gait"]
+    assert figures["strides"] == {"left": 21, "right": 20}
+    assert set(figures["parameters"]) == set(PARAMETERS)
+    assert set(figures["parameters"]["speed_m_per_s"]["left"]) == {
+        "count",
+        "mean",
+        "std",
+        "cv_percent",
+    }

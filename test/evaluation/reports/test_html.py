@@ -1,0 +1,147 @@
+"""The pages of reports as text: words first, self-contained, and true to the figures."""
+
+import json
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from dualfoot_ros.evaluation import evaluate
+from dualfoot_ros.evaluation.person import person_track
+from dualfoot_ros.evaluation.reports.html.comparison_page import comparison_page
+from dualfoot_ros.evaluation.reports.html.page import script_data
+from dualfoot_ros.evaluation.reports.html.page_tables import column, thin
+from dualfoot_ros.evaluation.reports.html.walk_page import walk_page
+from dualfoot_ros.evaluation.reports.html.words import Tone, in_words
+from dualfoot_ros.inspection import Finding, FindingKind, Severity
+from dualfoot_ros.recording.reference import Reference
+
+from ..walks import perfect, rectangle
+from .entries import entries_of, rows_of
+
+
+def decoded(made):
+    """Return the values of a column, as the script of the page reads them."""
+    total, values = 0, []
+    for step in made["d"]:
+        if step is None:
+            values.append(np.nan)
+            continue
+        total += step
+        values.append(total * made["unit"])
+    return np.array(values)
+
+
+def data_of(page):
+    text = re.search(r'id="data">(.*?)</script>', page, re.S)[1]
+    return json.loads(text)
+
+
+def test_a_column_is_exact_to_its_unit_and_keeps_its_holes():
+    values = np.array([1.2345, np.nan, -7.0, 1e6, np.inf, 0.0004])
+    found = decoded(column(values))
+    assert np.isnan(found[[1, 4]]).all()
+    known = [0, 2, 3, 5]
+    assert found[known] == pytest.approx(values[known], abs=0.00051)
+
+
+@pytest.mark.parametrize(("count", "most"), [(1, 10), (10, 10), (100_001, 8000)])
+def test_thinning_keeps_both_ends_and_the_limit(count, most):
+    rows = thin(count, most)
+    assert rows[0] == 0 and rows[-1] == count - 1
+    assert len(rows) <= most
+
+
+def test_the_page_needs_nothing_from_elsewhere():
+    track, truth = perfect(rectangle())
+    page = walk_page({"zupt": evaluate(track, truth=truth)}, "a walk")
+    assert re.findall(r'(?:src|href)="(?!data:)[^"]*"', page) == []
+    assert "default-src 'none'" in page
+    assert "http" not in page.replace("http-equiv", "").replace("http://www.w3.org/2000/svg", "")
+
+
+def test_a_date_is_given_only_where_the_stamps_tell_one():
+    track, _ = perfect()
+    assert "Walk of 2023-11-14" in walk_page({"zupt": evaluate(track)}, "a walk")
+    for foot in (track.left, track.right):
+        foot.stamp_ns[:] -= 1_700_000_000_000_000_000
+    young = replace(track, start_ns=int(track.left.stamp_ns[0]))
+    assert "clock of the sensors" in walk_page({"zupt": evaluate(young)}, "a walk")
+
+
+def test_names_cannot_become_markup():
+    track, _ = perfect()
+    title = "</script><script>alert(1)</script>"
+    page = walk_page({"zupt": evaluate(track)}, title, {"<b>": "&"})
+    assert "<script>alert" not in page
+    assert "</script" not in script_data({"a": title})
+    assert json.loads(script_data({"a": title})) == {"a": title}
+
+
+def test_every_plot_names_columns_that_are_there():
+    track, truth = perfect(rectangle())
+    data = data_of(walk_page({"a": evaluate(track, truth=truth), "b": evaluate(track)}, "a walk"))
+    assert len(data["charts"]) == 16
+    for chart in data["charts"].values():
+        for series in chart["series"]:
+            columns = data["tables"][series["table"]]
+            names = [series[key] for key in ("x", "y", "end", "half") if series.get(key)]
+            assert set(names) <= set(columns)
+        known = data["tables"][chart["link"]]
+        assert {key for key, _, _ in chart["told"]} <= set(known)
+
+
+def test_the_words_name_distance_and_error_and_warn_in_front():
+    track, truth = perfect(rectangle())
+    run = evaluate(track, truth=truth)
+    warned = replace(
+        run, findings=(Finding(FindingKind.EXCHANGED_FEET, Severity.WARNING, "Odd", "look"),)
+    )
+    sentences = in_words(warned, person_track(run.trajectory))
+    assert sentences[0].tone is Tone.WARNING and sentences[0].text == "Odd; look."
+    walked = f"{person_track(run.trajectory).walked_m[-1]:.1f} m"
+    assert any(walked in s.text for s in sentences)
+    assert any("0.00 m off at the end" in s.text for s in sentences)
+    good = in_words(replace(run, run_s=1.0), person_track(run.trajectory))
+    assert good[0].tone is Tone.GOOD
+    unchecked = in_words(run, person_track(run.trajectory))
+    assert {s.tone for s in unchecked} == {Tone.PLAIN}
+
+
+def test_a_closed_loop_is_called_so_only_where_it_is_known():
+    track, _ = perfect(rectangle())
+    loop = evaluate(track, reference=Reference("tape", {}, closed_loop=True))
+    known = " ".join(s.text for s in in_words(loop, person_track(track)))
+    unknown = " ".join(s.text for s in in_words(evaluate(track), person_track(track)))
+    assert "The walk is a loop" in known
+    assert "if the walk was a loop" in unknown
+
+
+def test_the_person_is_midway_with_the_covariance_of_the_mean_of_both_feet():
+    track, _ = perfect(rectangle())
+    person = person_track(track)
+    middle = (track.left.position + track.right.position) / 2
+    assert person.position == pytest.approx(middle)
+    # independent feet of 0.1 m each: the mean has 0.1 / sqrt(2)
+    assert person.covariance[5] == pytest.approx(np.eye(3) * 0.005)
+    unknown = replace(track, relative_covariance=np.full_like(track.relative_covariance, np.nan))
+    assert person_track(unknown).covariance[5] == pytest.approx(np.eye(3) * 0.01)
+
+
+def test_the_person_faces_along_the_way():
+    track, _ = perfect(rectangle())
+    heading = person_track(track).heading
+    assert heading[0] == pytest.approx(np.pi / 2, abs=0.1)
+    assert heading[-1] - heading[0] == pytest.approx(1.5 * np.pi, abs=0.3)
+
+
+def test_a_comparison_names_the_best_and_every_failure():
+    entries = entries_of()
+    rows = rows_of(entries)
+    for row in rows:
+        row["midpoint_rmse_m"] = 0.5 if row["case"] == "zupt" else 0.2
+    page = comparison_page(entries, rows, {"far, zupt": "there are no samples"})
+    assert "idc has the smallest error (RMSE): 0.200 m" in page
+    assert "far, zupt gave no figures: there are no samples." in page
+    assert len(data_of(page)["charts"]) == 2

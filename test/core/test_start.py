@@ -1,0 +1,108 @@
+"""A track starts from what is there: a quiet stand, a restless one, or the first stances."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from dualfoot_ros.core import DualFootTracker, EventKind, ImuPair, TrackerConfig, bias_after
+from dualfoot_ros.simulation import Gait, WalkConfig, grade, simulate
+
+from .harness import quick_engine
+
+ENGINE = quick_engine().name
+RATE = 100.0
+
+
+def made(seed: int = 5, **options):
+    return simulate(
+        WalkConfig(route="straight", rate=RATE, **options), grade("consumer"), seed=seed
+    )
+
+
+def run(left, right, **options):
+    config = TrackerConfig.from_mapping({"method": "zupt", **options})
+    return DualFootTracker(config, engine=ENGINE).run(left, right)
+
+
+def start_of(result) -> dict:
+    (event,) = result.of_kind(EventKind.ALIGNED)
+    return event.detail
+
+
+def way_of(track) -> float:
+    return float(np.linalg.norm(track.position[-1, :2] - track.position[0, :2]))
+
+
+def test_a_person_who_stands_quietly_starts_at_once():
+    walk = made(standing=5.0)
+    result = run(walk.left, walk.right)
+    assert start_of(result)["start"] == "stand"
+    assert (result.start_ns - int(walk.left.stamp_ns[0])) * 1e-9 < 3.2
+
+
+def test_a_person_who_sways_starts_all_the_same_with_a_less_certain_bias():
+    calm, swaying = (made(standing=6.0, gait=Gait(tremor=t)) for t in (0.002, 0.04))
+    found = [run(walk.left, walk.right) for walk in (calm, swaying)]
+    stds = [start_of(result)["gyro_bias_std"] for result in found]
+    assert start_of(found[1])["start"] == "restless_stand"
+    assert stds[1] > 2.0 * stds[0]
+    assert way_of(found[1].left) == pytest.approx(way_of(found[0].left), rel=0.05)
+
+
+@pytest.mark.parametrize("patience", (2.0, 6.0))
+def test_live_output_begins_after_the_patience_when_no_better_stand_comes(patience):
+    walk = made(standing=12.0, gait=Gait(tremor=0.04))
+    config = TrackerConfig.from_mapping({"alignment.patience": patience})
+    tracker = DualFootTracker(config, engine=ENGINE)
+    begin = int(walk.left.stamp_ns[0])
+    values = np.hstack(
+        [np.hstack([s.specific_force, s.angular_rate]) for s in (walk.left, walk.right)]
+    )
+    for stamp, row in zip(walk.left.stamp_ns.tolist(), values, strict=True):
+        if tracker.add(ImuPair(stamp, row)).row is not None:
+            break
+    assert (stamp - begin) * 1e-9 < patience + 2.0
+
+
+def test_a_walk_without_any_stand_starts_from_its_first_stances():
+    walk = made(standing=5.0, final_standing=0.5)
+    whole = run(walk.left, walk.right)
+    moving = slice(round(7.0 * RATE), None)
+    result = run(walk.left[moving], walk.right[moving])
+    assert start_of(result)["start"] == "first_stance"
+    missing_m = whole.left.position[whole.left.stamp_ns >= result.start_ns][0]
+    rest = np.linalg.norm((whole.left.position[-1] - missing_m)[:2])
+    assert way_of(result.left) == pytest.approx(rest, rel=0.06)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_stand_at_the_end_tells_the_bias_of_a_walk_that_had_none(seed):
+    walk = made(seed, standing=6.0, final_standing=8.0)
+    known = start_of(run(walk.left, walk.right))
+    moving = slice(round(8.0 * RATE), None)
+    left, right = walk.left[moving], walk.right[moving]
+    tracker = DualFootTracker(TrackerConfig(method="zupt"), engine=ENGINE)
+    for foot, series in (("left", left), ("right", right)):
+        prior = bias_after(series, tracker.config)
+        assert np.abs(prior.mean - known[f"{foot}_gyro_bias"]).max() < 4.0 * max(
+            prior.std, known["gyro_bias_std"]
+        )
+        tracker.declare_bias(foot, prior)
+    started = start_of(tracker.run(left, right))
+    assert started["start"] == "first_stance" and started["gyro_bias_std"] < 2e-3
+
+
+def test_a_walk_that_ends_in_motion_has_no_last_stand():
+    walk = made(standing=5.0, final_standing=0.5)
+    moving = slice(round(7.0 * RATE), round(12.0 * RATE))
+    assert bias_after(walk.left[moving], TrackerConfig()) is None
+
+
+def test_every_stand_of_the_walk_teaches_the_bias_anew():
+    walk = made(standing=5.0, stops=2, stop_duration=8.0)
+    result = run(walk.left, walk.right)
+    stood = result.of_kind(EventKind.STOOD)
+    assert {event.foot for event in stood} == {"left", "right"} and len(stood) >= 4
+    assert all(event.detail["gyro_bias_std"] < 2e-3 for event in stood)
+    assert all(event.nis < 30.0 for event in stood)

@@ -102,7 +102,8 @@ def _facts(contents: Contents) -> dict[str, Any]:
         imu = recording.imu(foot)
         facts["increments"] = None if imu is None else imu.increments
     for foot, stances in contents.stances.items():
-        feet[foot]["stances"] = asdict(stances)
+        if foot in feet:
+            feet[foot]["stances"] = asdict(stances)
     truths = {foot: recording.truth(foot) for foot in FEET}
     reference = recording.reference
     return {

@@ -5,7 +5,7 @@ from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options
 from .frames.yaw_transform import Align, Pair
 from .notes import config_notes
-from .person import PersonTrack, person_track
+from .person_track import PersonTrack, person_track
 from .plain import plain
 from .published import published_trajectory
 from .reports.demo_table import Report, demo_report

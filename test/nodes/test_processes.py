@@ -82,7 +82,7 @@ def test_a_preset_reaches_a_node_in_a_namespace(program):
         "fusion", "--ros-args", "--params-file", ROOT / "config/liu2023.yaml", "-r", "__ns:=/me"
     )
     running.wait_for("[me.fusion]: configuration:")
-    running.wait_for("idc.distance=0.3")
+    running.wait_for("idc.apply_at=detection")
 
 
 def test_an_argument_that_is_not_for_ros_is_refused(program):

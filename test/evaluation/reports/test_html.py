@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.evaluation import evaluate
-from dualfoot_ros.evaluation.person import person_track
+from dualfoot_ros.evaluation.person_track import person_track
 from dualfoot_ros.evaluation.reports.html.comparison_page import comparison_page
 from dualfoot_ros.evaluation.reports.html.page import script_data
 from dualfoot_ros.evaluation.reports.html.page_tables import column, thin

@@ -92,7 +92,7 @@ def test_fusion_corrects_each_foot_before_anything_else(bench, both, monkeypatch
     node = bench.add(FusionNode, {"calibration": both})
     seen = {}
     monkeypatch.setattr(
-        node.streams.aligner, "push", lambda foot, _, v: seen.update({foot: v}) or []
+        node.streams.aligner, "push", lambda foot, _, v, *__: seen.update({foot: v}) or []
     )
     for foot in ("left", "right"):
         node.streams.receive(foot, imu(1))

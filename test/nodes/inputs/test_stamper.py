@@ -104,7 +104,7 @@ def test_fusion_takes_the_policies_for_raw_streams_and_not_again_for_synchronise
     seen = []
     for sync in ("internal", "external"):
         node = bench.add(FusionNode, {"sync": sync, "stamping.right_offset": 2.0}, namespace=sync)
-        node.streams.aligner.push = lambda foot, stamp_ns, values: seen.append(stamp_ns) or []
+        node.streams.aligner.push = lambda foot, stamp_ns, *_: seen.append(stamp_ns) or []
         node.streams.receive("right", imu(7))
     assert seen == [2 * 10**9 + 7, 7]
 
@@ -113,7 +113,7 @@ def test_fusion_takes_the_policies_for_raw_streams_and_not_again_for_synchronise
 def test_no_node_hands_on_a_sample_before_the_clock_of_its_device_is_known(bench, kind):
     seen = []
     node = bench.add(kind, {"stamping.left": "device"})
-    node.streams.aligner.push = lambda foot, stamp_ns, values: seen.append(stamp_ns) or []
+    node.streams.aligner.push = lambda foot, stamp_ns, *_: seen.append(stamp_ns) or []
     for k in range(600):
         node.streams.inputs["left"].arrival_ns = HOUR_NS + k * STEP_NS
         node.streams.receive("left", imu(k * STEP_NS))

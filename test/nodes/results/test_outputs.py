@@ -7,7 +7,7 @@ from nav_msgs.msg import Odometry
 from dualfoot_ros.core import DualFootTracker, ImuPair
 from dualfoot_ros.nodes.results.outputs import Outputs
 from dualfoot_ros.nodes.ros import qos
-from dualfoot_ros.settings import FrameConfig, PathConfig
+from dualfoot_ros.settings import FrameConfig, PathConfig, PersonConfig
 from dualfoot_ros.simulation import WalkConfig, simulate
 
 FEET = ("left", "right")
@@ -41,7 +41,7 @@ def test_odometry_is_that_of_the_person_and_of_the_feet_that_are_there(
     for name, found in got.items():
         topic = "odometry" if name == "person" else f"{name}/odometry"
         node.create_subscription(Odometry, topic, found.append, qos.result())
-    outputs = Outputs(node, FrameConfig(), PathConfig(), 1e-3, tf=False)
+    outputs = Outputs(node, FrameConfig(), PathConfig(), PersonConfig(), 1e-3, tf=False)
     for update in updates[:5]:
         outputs.publish(update, present)
     bench.until(lambda: len(got["person"]) == 5, "odometry of the person")

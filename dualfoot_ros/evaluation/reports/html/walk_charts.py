@@ -8,7 +8,7 @@ from typing import Any
 from ....core import FEET
 from ...evaluate import Evaluation
 from ...exports import start_direction
-from ...person import PersonTrack
+from ...person_track import PersonTrack
 from ..plots import FOOT, GREEN, MARKER, TRUTH
 
 PERSON = "#4B3F8F"

@@ -11,7 +11,7 @@ from ....core import EventKind
 from ...evaluate import Evaluation
 from ...exports import FloorPlan
 from ...gait import PARAMETERS
-from ...person import PersonTrack, person_track
+from ...person_track import PersonTrack, person_track
 from ..walk_table import number, sections
 from .page import figure, folded, html_table, page, section, tiles, words
 from .walk_charts import walk_charts

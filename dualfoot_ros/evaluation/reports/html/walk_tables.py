@@ -9,7 +9,7 @@ import numpy as np
 from ....core import FEET, FloatArray, stance_bounds, swing_passings
 from ...evaluate import Evaluation, constraint_epochs
 from ...frames.association import Footfalls, seconds
-from ...person import CHI2_95_PLANE, PersonTrack
+from ...person_track import CHI2_95_PLANE, PersonTrack
 from .page_tables import table, thin
 
 CENTI = 0.01

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from ...evaluate import Evaluation
-from ...person import PersonTrack
+from ...person_track import PersonTrack
 from ..walk_table import number
 
 CLIMB_M = 0.5

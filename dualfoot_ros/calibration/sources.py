@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..core import FEET, FORWARD_LEFT_UP, CalibrationError, ImuSeries
-from ..recording import Topics, read_bag
+from ..recording import Topics, find_topics, read_bag
 from ..recording.importers import read_sensor
 from .file import ANY
 
@@ -24,7 +24,7 @@ def load_sources(
     """Return the recordings by sensor: "left", "right", or "sensor" where no foot is known.
 
     A .csv export holds one sensor, that of ``foot``; a bag holds both, of which ``foot`` may
-    choose one.
+    choose one.  Without ``topics`` those of a bag are found by their names.
 
     Raises
     ------
@@ -53,11 +53,11 @@ def _load(path: Path, foot: str | None, axes: str, topics: Topics | None) -> lis
         raise CalibrationError(
             f"'{path}' is a bag, whose axes are forward-left-up already; --axes is for exports"
         )
-    recording = read_bag(path, topics=topics)
+    recording = read_bag(path, topics=topics or find_topics(path).topics)
     feet = FEET if foot is None else (foot,)
     held = [(name, series) for name in feet if (series := recording.imu(name)) is not None]
     if not any(len(series) for _, series in held):
-        topic = recording.topics.of(feet[0]).imu
+        topic = recording.topics.of(feet[0]).samples
         present = ", ".join(recording.imu_topics) or "none"
         raise CalibrationError(
             f"'{path}' has no samples of {' or '.join(feet)} ('{topic}'); its sensor_msgs/Imu "

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..core import ConfigError
 from ..inspection import require_usable
-from ..recording import STORAGES, Recording, Topics, read_bag
+from ..recording import STORAGES, Recording, Topics, find_topics, read_bag
+from .printing import print_note
 from .progress import progress
 
 if TYPE_CHECKING:
@@ -34,8 +34,8 @@ def add_topic_arguments(parser: argparse.ArgumentParser) -> None:
         group.add_argument(
             f"--{foot}-topic",
             metavar="TOPIC",
-            default=topics.of(foot).imu,
-            help=f"sensor_msgs/Imu topic of the {foot} foot (default: %(default)s)",
+            help=f"sensor_msgs/Imu topic of the {foot} foot, or two topics ACCELEROMETER,GYRO "
+            f"(default: {topics.of(foot).imu}, else the one whose name says {foot})",
         )
 
 
@@ -119,19 +119,25 @@ def add_storage_arguments(parser: Arguments) -> None:
     parser.add_argument("--overwrite", action="store_true", help="replace an existing bag")
 
 
-def read_topics(args: argparse.Namespace) -> Topics:
-    """Return the topics that ``args`` names."""
-    usual = Topics()
-    return Topics(
-        left=replace(usual.left, imu=args.left_topic),
-        right=replace(usual.right, imu=args.right_topic),
-    )
+def read_topics(path: str, args: argparse.Namespace) -> Topics:
+    """Return the topics that ``args`` names, or that the bag ``path`` has; say which were found.
+
+    Raises
+    ------
+    RecordingError
+        When the bag cannot be read, or several topics could be those of a foot.
+    """
+    choice = find_topics(path, args.left_topic, args.right_topic)
+    for sentence in choice.sentences:
+        print_note(sentence)
+    return choice.topics
 
 
 def load_bag(path: str, args: argparse.Namespace) -> Recording:
     """Read the bag ``path`` with the topics of ``args``, showing progress."""
+    topics = read_topics(path, args)
     with progress(f"reading {path}") as update:
-        return read_bag(path, topics=read_topics(args), progress=update)
+        return read_bag(path, topics=topics, progress=update)
 
 
 def load_usable(path: str, args: argparse.Namespace) -> Recording:

@@ -17,7 +17,13 @@ from ..core import (
 from ..core.aids import WORN
 from ..inspection import findings_of
 from ..recording import METADATA, Recording, check_target
-from ..recording.importers import FORMATS, ImportOptions, import_recording, read_pressure
+from ..recording.importers import (
+    FORMATS,
+    STAMPS,
+    ImportOptions,
+    import_recording,
+    read_pressure,
+)
 from .arguments import add_bag_output_argument, add_storage_arguments, save_bag
 from .printing import print_warning
 
@@ -29,6 +35,7 @@ examples:
   dualfoot import --left L.csv --right R.csv -o walk
   dualfoot import --left L.csv --right R.csv --axes=+y-x+z --right-offset 162.49 -o walk
   dualfoot import --left L.csv --right R.csv --pressure both=baro.csv -o walk
+  dualfoot import walk.bag --stamps log -o walk
   dualfoot import drive.mcap --left-topic /imu_l --right-topic /imu_r --rate-unit deg/s -o walk
 
 Axes and units of the bag: forward-left-up, m/s^2, rad/s, tesla. Stamps are those of the devices.
@@ -86,11 +93,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_bag_arguments(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("bags of other programs (format rosbag)")
+    group = parser.add_argument_group("bags (format rosbag)")
     for foot in FEET:
         group.add_argument(
-            f"--{foot}-topic", metavar="TOPIC", help=f"sensor_msgs/Imu topic of the {foot} foot"
+            f"--{foot}-topic",
+            metavar="TOPIC",
+            help=f"sensor_msgs/Imu topic of the {foot} foot, or two topics ACCELEROMETER,GYRO "
+            f"(default: that of this package, else the one whose name says {foot})",
         )
+    group.add_argument(
+        "--stamps",
+        default="header",
+        choices=STAMPS,
+        help="header: as they are (default); log: the log times, evened out, for headers of "
+        "zero; index: those of the headers, evened out by the number of the sample, for times of "
+        "arrival and bursts",
+    )
     group.add_argument(
         "--force-unit", default="m/s^2", choices=FORCE_UNITS, help="unit of the specific force"
     )
@@ -142,6 +160,7 @@ def _options(args: argparse.Namespace) -> ImportOptions:
         right_topic=args.right_topic,
         force_unit=args.force_unit,
         rate_unit=args.rate_unit,
+        stamps=args.stamps,
     )
 
 
@@ -153,6 +172,9 @@ def _report(output: Path, recording: Recording) -> None:
     reference = recording.reference
     if reference is not None:
         print(f"reference: {reference.summary()}")
+    for key in ("topics", "stamps"):
+        if key in recording.notes:
+            print(f"{key}: {recording.notes[key]}")
     print(f"wrote {output}")
     for finding in findings_of(recording):
         print_warning("import", finding.sentence)

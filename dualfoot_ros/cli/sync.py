@@ -77,7 +77,7 @@ def _synchronise(recording: Recording, args: argparse.Namespace) -> Synchronised
     left, right = recording.left, recording.right
     if left is None or right is None:
         foot = "left" if left is None else "right"
-        topic = getattr(args, f"{foot}_topic")
+        topic = recording.topics.of(foot).samples
         raise TimingError(
             f"the bag has no samples of the {foot} foot (topic '{topic}'), and both are needed; "
             f"'dualfoot info' lists its topics, --{foot}-topic names another one"

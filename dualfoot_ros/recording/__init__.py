@@ -3,10 +3,13 @@
 from ..core import RecordingError
 from .atomic import check_file, check_target, new_directory, new_files, write_text
 from .log_times import read_arrivals
-from .open_bag import METADATA, TopicInfo, list_topics
-from .read import read_bag
+from .open_bag import METADATA, list_topics
+from .read import read_bag, read_logged
 from .recording import Correction, Recording
 from .reference import Reference
+from .storage.bag_source import TopicInfo
+from .storage.bag_writer import new_bag
+from .topic_choice import TopicChoice, choose_topics, find_topics
 from .topics import PRESSURE_TOPICS, Topics
 from .write import STORAGES, write_bag
 
@@ -18,15 +21,20 @@ __all__ = [
     "Recording",
     "RecordingError",
     "Reference",
+    "TopicChoice",
     "TopicInfo",
     "Topics",
     "check_file",
     "check_target",
+    "choose_topics",
+    "find_topics",
     "list_topics",
+    "new_bag",
     "new_directory",
     "new_files",
     "read_arrivals",
     "read_bag",
+    "read_logged",
     "write_bag",
     "write_text",
 ]

@@ -17,6 +17,7 @@ from .open_bag import METADATA
 from .read import NOTE_PREFIX, Progress
 from .recording import Recording
 from .reference import FILE_NAME
+from .storage.bag_writer import new_bag
 from .topics import FIELD_TYPE, IMU_TYPE, PRESSURE_TYPE, TRUTH_TYPE, Topics
 
 STORAGES = ("mcap", "sqlite3")
@@ -127,22 +128,12 @@ def _write(
     storage: str,
     progress: Progress | None,
 ) -> None:
-    from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
-    from rosbags.typesys import Stores, get_typestore
-
-    store = get_typestore(Stores.ROS2_JAZZY)
-    writer = Writer(folder, version=9, storage_plugin=StoragePlugin[storage.upper()])
-    if storage == "mcap":  # zstd chunks, which every MCAP reader knows
-        writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
-    for key, value in recording.notes.items():
-        writer.set_custom_data(NOTE_PREFIX + key, str(value))
-    with writer:
-        connections = [
-            writer.add_connection(c.topic, c.msgtype, typestore=store) for c in channels
-        ]
+    custom = {NOTE_PREFIX + key: str(value) for key, value in recording.notes.items()}
+    with new_bag(folder, storage, custom) as writer:
+        keys = [writer.add_topic(c.topic, c.msgtype) for c in channels]
         logged, which, row = _in_order(channels)
         for done, (stamp, channel, i) in enumerate(zip(logged, which, row, strict=True)):
-            writer.write(connections[channel], stamp, channels[channel].rows[i].tobytes())
+            writer.write(keys[channel], stamp, channels[channel].rows[i].tobytes())
             if progress is not None and done % 4096 == 0:
                 progress(done / len(logged))
 

@@ -45,6 +45,16 @@ def with_field(series, tesla):
     return replace(series, magnetic_field=np.full((len(series), 3), tesla))
 
 
+def jittering(series):
+    """Return stamps as of arrivals, with delays of some milliseconds."""
+    late = np.random.default_rng(5).exponential(8e6, len(series)).astype(np.int64)
+    return replace(series, stamp_ns=series.stamp_ns + late)
+
+
+def in_bursts(series):
+    return replace(series, stamp_ns=series.stamp_ns[np.arange(len(series)) // 4 * 4])
+
+
 def air(series, pascal):
     return {"both": PressureSeries(series.stamp_ns[::-1], np.full(len(series), pascal))}
 
@@ -71,6 +81,8 @@ RECORDINGS = {
     "clipping": lambda: Recording(clipping(moving(1)), moving(2)),
     "hPa": lambda: Recording(moving(1), moving(2), pressure=air(moving(1), 1013.0)),
     "uT": lambda: Recording(with_field(moving(1), 30.0), moving(2)),
+    "jitter": lambda: Recording(jittering(moving(1)), moving(2)),
+    "bursts": lambda: Recording(in_bursts(moving(1)), moving(2)),
     "exchanged": exchanged,
 }
 
@@ -113,7 +125,7 @@ def test_rewording_every_sentence_changes_nothing_that_is_decided(bags, capsys, 
 def test_these_recordings_show_all_but_a_few_kinds(bags, capsys):
     decided, _ = outcomes({name: bag for name, bag in bags.items() if name != "exchanged"}, capsys)
     seen = {kind for _, _, kinds, _, _ in decided.values() for kind, _ in kinds}
-    rare = {"late_standstill", "pressure_clock", "field_stamps", "swapped"}
+    rare = {"cut_off", "late_standstill", "pressure_clock", "field_stamps", "swapped"}
     assert seen | rare == kinds_made_in("inspection")
     severities = {severity for _, _, kinds, _, _ in decided.values() for _, severity in kinds}
     assert severities == set(Severity)

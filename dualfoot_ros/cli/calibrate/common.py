@@ -12,7 +12,6 @@ from ..arguments import (
     add_json_argument,
     add_no_plots_argument,
     add_topic_arguments,
-    read_topics,
 )
 from ..printing import print_json, print_warning
 from ..progress import progress
@@ -20,6 +19,7 @@ from ..progress import progress
 if TYPE_CHECKING:
     from ...calibration import Calibration
     from ...core import ImuSeries
+    from ...recording import Topics
 
 
 def add_sensor_arguments(parser: argparse.ArgumentParser) -> None:
@@ -64,7 +64,15 @@ def load(args: argparse.Namespace) -> dict[str, list[tuple[str, ImuSeries]]]:
     from ...calibration import load_sources
 
     with progress("reading"):
-        return load_sources(args.source, args.foot, axes=args.axes, topics=read_topics(args))
+        return load_sources(args.source, args.foot, axes=args.axes, topics=_topics(args))
+
+
+def _topics(args: argparse.Namespace) -> Topics | None:
+    """Return the topics that ``args`` names; None to find them in each bag by their names."""
+    from ...recording import choose_topics
+
+    given = {foot: getattr(args, f"{foot}_topic") for foot in ("left", "right")}
+    return choose_topics({}, given).topics if any(given.values()) else None
 
 
 def existing(path: Path | None) -> Calibration:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ import numpy as np
 from ...core import EvaluationError, FloatArray, IntArray, swing_passings
 from ...core.compiler import compiled
 from ...inspection import Finding, check_usable
-from ...recording import Recording, Topics, read_bag
+from ...recording import Recording, find_topics, read_bag
 from ..evaluate import Evaluation
 from ..frames.gauge import Options, Truth
 from ..metrics.accuracy import Statistics, statistics
@@ -28,7 +28,7 @@ NEAR_S = 0.25
 
 @dataclass(frozen=True)
 class Job:
-    """A case to run on a bag; topics of the samples, None for the usual ones."""
+    """A case to run on a bag; topics of the samples, None for the usual or those found by name."""
 
     bag: str
     case: Case
@@ -127,12 +127,7 @@ def _read(
     bag: str, names: tuple[str | None, str | None], allow_nan: bool, repeat: int
 ) -> tuple[Recording, tuple[Finding, ...]]:
     """Read and check a bag; a process that runs several methods in a row on it does so once."""
-    usual = Topics()
-    left, right = (
-        replace(foot, imu=name or foot.imu)
-        for foot, name in zip((usual.left, usual.right), names, strict=True)
-    )
-    recording = read_bag(Path(bag), topics=replace(usual, left=left, right=right))
+    recording = read_bag(Path(bag), topics=find_topics(bag, *names).topics)
     findings = check_usable(recording, allow_not_finite=allow_nan)
     return repeated(recording, repeat), findings
 

@@ -25,6 +25,7 @@ class FindingKind(StrEnum):
 
     # samples of a foot
     MISSING = "missing"
+    CUT_OFF = "cut_off"
     NOT_FINITE = "not_finite"
     EMPTY = "empty"
     REFUSED_SAMPLES = "refused_samples"
@@ -40,6 +41,8 @@ class FindingKind(StrEnum):
     # stamps and clocks
     BEGINS_ANEW = "begins_anew"
     STAMPS = "stamps"
+    EQUAL_STAMPS = "equal_stamps"
+    JITTER = "jitter"
     NO_OVERLAP = "no_overlap"
     RATES = "rates"
     NOT_STAMPED = "not_stamped"

@@ -14,7 +14,7 @@ from ..quality import Quality, quality_of
 from .field_findings import field_findings
 from .finding import Finding
 from .finding_kinds import FindingKind
-from .pair_findings import find_different_rates, find_missing, find_no_overlap
+from .pair_findings import find_cut, find_different_rates, find_missing, find_no_overlap
 from .pressure_findings import pressure_findings
 from .sample_findings import (
     LEAST_SAMPLES,
@@ -25,7 +25,9 @@ from .sample_findings import (
 from .stream_findings import (
     find_bad_stamps,
     find_clipping,
+    find_equal_stamps,
     find_gaps,
+    find_jitter,
     find_late_standstill,
     find_no_standstill,
     find_stuck_values,
@@ -39,11 +41,13 @@ OF_SAMPLES: Sequence[FootFindings] = (find_not_finite, find_too_few, find_second
 OF_UNITS: Sequence[FootFindings] = (find_force_unit, find_rate_unit)
 OF_PAIR: Sequence[PairFindings] = (find_no_overlap, find_different_rates)
 OF_STREAM: Sequence[FootFindings] = (
+    find_equal_stamps,
     find_stuck_values,
     find_no_standstill,
     find_late_standstill,
     find_gaps,
     find_bad_stamps,
+    find_jitter,
     find_clipping,
 )
 
@@ -83,6 +87,7 @@ def findings_of(
 ) -> Iterator[Finding]:
     """Yield every finding, the gravest first; ``qualities`` spares computing them again."""
     yield from find_missing(recording)
+    yield from find_cut(recording)
     if qualities is None:
         qualities = qualities_of(recording)
     usable = {foot: q for foot, q in qualities.items() if q.usable >= LEAST_SAMPLES}

@@ -11,6 +11,9 @@ from .finding_kinds import FindingKind
 
 STUCK_SHARE = 0.1  # of the samples; with more, the recording is of no use
 LATE_STANDSTILL_S = 5.0
+EQUAL_SHARE = 0.2  # of the samples; with more, the recording is of no use
+JITTER_SHARE = 0.3  # of the sampling interval
+EVEN_THEM = "even the stamps out with 'dualfoot import BAG --stamps index -o NEW'"
 
 
 def find_stuck_values(foot: str, quality: Quality) -> Iterator[Finding]:
@@ -77,6 +80,32 @@ def find_bad_stamps(foot: str, quality: Quality) -> Iterator[Finding]:
             f"{foot} foot: {quality.duplicate} duplicate and {quality.out_of_order} out-of-order "
             "stamps are left out",
             about=foot,
+        )
+
+
+def find_equal_stamps(foot: str, quality: Quality) -> Iterator[Finding]:
+    """Yield a finding when so many stamps repeat that most of the samples would be lost."""
+    if quality.duplicate > EQUAL_SHARE * quality.samples:
+        yield Finding(
+            FindingKind.EQUAL_STAMPS,
+            Severity.ERROR,
+            f"{foot} foot: {quality.duplicate} of {quality.samples} samples have the stamp of the "
+            "one before, as of a link that delivers several at once",
+            EVEN_THEM,
+            foot,
+        )
+
+
+def find_jitter(foot: str, quality: Quality) -> Iterator[Finding]:
+    """Yield a finding when the intervals vary so much that stamps are times of arrival."""
+    if quality.jitter_s * quality.rate_hz > JITTER_SHARE:
+        yield Finding(
+            FindingKind.JITTER,
+            Severity.WARNING,
+            f"{foot} foot: the stamps jitter by {1e3 * quality.jitter_s:.1f} ms around intervals "
+            f"of {1e3 / quality.rate_hz:.1f} ms, as times of arrival do; the track suffers",
+            EVEN_THEM,
+            foot,
         )
 
 

@@ -12,7 +12,7 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from ...core import ConfigError, ImuSeries
 from ...drivers import FORMATS, parse_uri
-from ...recording import RecordingError, read_bag
+from ...recording import RecordingError, find_topics, read_bag
 from ...settings import AdapterConfig
 from ...timing import StampConfig
 from ..ros.program import in_one_line
@@ -106,7 +106,7 @@ def load(source: Source, foot: str) -> ImuSeries:
             f"'{path}' is no bag ({', '.join(BAGS)} or a folder) and no .csv; for bytes captured "
             f"from a device add ?format= with one of {', '.join(CAPTURED)}"
         )
-    series = read_bag(path).imu(foot)
+    series = read_bag(path, topics=find_topics(path).topics).imu(foot)
     if series is None or not len(series):
         raise RecordingError(f"bag '{path}' has no samples on /{foot}/imu/data_raw")
     return series

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import cast
 
 import numpy as np
@@ -16,12 +16,16 @@ from .options import ImportOptions
 
 @dataclass(frozen=True)
 class Format:
-    """One format: its name, its description, and the module that loads it."""
+    """One format: its name, its description, and the module that loads it.
+
+    ``options`` are the fields of :class:`ImportOptions` that it uses beside the sources.
+    """
 
     name: str
     description: str
     suffixes: tuple[str, ...]
     module: str
+    options: tuple[str, ...] = ()
 
     def load(self, options: ImportOptions) -> Recording:
         """Load a recording; raise RecordingError when the files are not as the format says."""
@@ -29,8 +33,9 @@ class Format:
         return cast(Callable[[ImportOptions], Recording], module.load)(options)
 
 
+OF_ALL = ("sources", "left", "right", "right_offset_s")
 FOLDER = "/"
-BAG_SUFFIXES = (FOLDER, ".mcap", ".db3")
+BAG_SUFFIXES = (FOLDER, ".mcap", ".db3", ".bag")
 FORMATS = (
     Format(
         "dual-feet",
@@ -43,12 +48,14 @@ FORMATS = (
         "two .csv exports of the Xsens DOT app, one a foot (--left, --right)",
         (".csv",),
         "xsens_dot",
+        ("axes", "field_scale"),
     ),
     Format(
         "rosbag",
-        "a bag of two sensor_msgs/Imu topics with other names, axes or units (--left-topic ...)",
+        "a bag, also of ROS 1, whose topics have other names, axes, units or stamps",
         BAG_SUFFIXES,
         "rosbag",
+        ("axes", "left_topic", "right_topic", "force_unit", "rate_unit", "stamps"),
     ),
 )
 
@@ -72,8 +79,28 @@ def import_recording(options: ImportOptions, name: str = "auto") -> Recording:
         if not file.exists():
             raise RecordingError(f"there is no file '{file}'")
     suffix = FOLDER if files[0].is_dir() else files[0].suffix.lower()
-    recording = _format(name, suffix).load(options)
+    chosen = _format(name, suffix)
+    check_options(options, chosen)
+    recording = chosen.load(options)
     return _shifted(recording, round(options.right_offset_s * 1e9))
+
+
+def check_options(options: ImportOptions, chosen: Format) -> None:
+    """Refuse an option that ``chosen`` would ignore.
+
+    Raises
+    ------
+    RecordingError
+        Names the option, and the formats that it is for.
+    """
+    for spec in fields(options):
+        if spec.name in (*OF_ALL, *chosen.options) or getattr(options, spec.name) == spec.default:
+            continue
+        known = [known.name for known in FORMATS if spec.name in known.options]
+        raise RecordingError(
+            f"--{spec.name.replace('_', '-')} does not apply to the format {chosen.name}; it is "
+            f"for {', '.join(known)}"
+        )
 
 
 def _format(name: str, suffix: str) -> Format:

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from ...core import FORWARD_LEFT_UP
 
+STAMPS = ("header", "log", "index")
+
 
 @dataclass(frozen=True)
 class ImportOptions:
@@ -19,7 +21,10 @@ class ImportOptions:
     axes : device axes that point forward, left and up, as ``core.axes_matrix`` reads it
     right_offset_s : added to every stamp of the right foot, s
     field_scale : tesla per unit of the magnetometer, 0 leaves it out
-    left_topic, right_topic : sensor_msgs/Imu topics of a bag; None for those this package writes
+    left_topic, right_topic : sensor_msgs/Imu topics of a bag, or two as "ACCELEROMETER,GYRO"; None
+        for those this package writes, else those whose names say which foot they are of
+    stamps : stamps of a bag, one of ``STAMPS``: those of the headers as they are, the log times
+        evened out, or those of the headers evened out by the number of the sample
     force_unit, rate_unit : units of a bag's samples, keys of ``FORCE_UNITS``, ``RATE_UNITS``
     """
 
@@ -33,3 +38,4 @@ class ImportOptions:
     right_topic: str | None = None
     force_unit: str = "m/s^2"
     rate_unit: str = "rad/s"
+    stamps: str = "header"

@@ -40,6 +40,7 @@ from .adapter.losses import in_words, select_counts
 from .inputs.calibrations import FOOT_UNKNOWN, find_foot, load_for_sensor
 from .inputs.field_topics import FieldOutput
 from .inputs.stamper import Stamper
+from .inputs.topic_search import TopicSearch
 from .inputs.unit_check import UnitCheck
 from .playback.player import Player, Sample, in_order, wait_to_begin
 from .ros import qos
@@ -51,6 +52,7 @@ from .ros.watched_input import InputMonitor, WatchedInput
 from .ros.watched_publisher import watched_publisher
 
 MAG = "imu/mag"
+CHOOSE = "the parameter source of this imu_adapter, as in topic:///TOPIC"
 PROGRAM = Program(
     "imu_adapter",
     "Publish one sensor as imu/data_raw, in SI units and with axes forward-left-up; a device or\n"
@@ -95,7 +97,8 @@ class ImuAdapterNode(Node):
         values = declare(self, node_specs("imu_adapter"))
         self._config = group(AdapterConfig, values)
         named = find_foot(self._config.foot, self.get_namespace())
-        self._foot = named or FEET[0]
+        self._named, self._foot = named, named or FEET[0]
+        self.search: TopicSearch | None = None
         self._conversion = Conversion(
             group(MountingConfig, values, "mounting."),
             group(UnitConfig, values, "units."),
@@ -128,11 +131,21 @@ class ImuAdapterNode(Node):
         if source.kind == "topic":
             profile = qos.sensor(config.depth)
             self._input = WatchedInput(self, Imu, source.target, self._relay, profile)
+            self._search_topic()
             self.monitor = InputMonitor(self, [self._input], config)
         elif source.kind == sources.DEVICE:
             self._read_device(source, config, group(PlayConfig, values, "play."))
         else:
             self._play_file(source, group(PlayConfig, values, "play."))
+
+    def _search_topic(self) -> None:
+        """Look for a topic whose name says the foot, where no source was chosen."""
+        usual = AdapterConfig().source
+        if self._named is not None and self._config.source == usual:
+            topic = usual.removeprefix("topic://")
+            space = self.get_namespace().rpartition("/")[0]
+            feet = {self._named: self._input}
+            self.search = TopicSearch(self, feet, {self._named: topic}, CHOOSE, space)
 
     def _read_device(self, source: sources.Source, config: InputConfig, play: PlayConfig) -> None:
         self._publish_field()

@@ -9,11 +9,12 @@ from .recording import Correction, Recording
 from .reference import Reference
 from .storage.bag_source import TopicInfo
 from .storage.bag_writer import new_bag
-from .topic_choice import TopicChoice, choose_topics, find_topics
-from .topics import PRESSURE_TOPICS, Topics
+from .topic_choice import TopicChoice, choose_topics, find_topics, foot_of_topic
+from .topics import IMU_TYPE, PRESSURE_TOPICS, Topics
 from .write import STORAGES, write_bag
 
 __all__ = [
+    "IMU_TYPE",
     "METADATA",
     "PRESSURE_TOPICS",
     "STORAGES",
@@ -28,6 +29,7 @@ __all__ = [
     "check_target",
     "choose_topics",
     "find_topics",
+    "foot_of_topic",
     "list_topics",
     "new_bag",
     "new_directory",

@@ -80,7 +80,7 @@ def named_topics(name: str, usual: FootTopics) -> FootTopics:
     return replace(usual, imu=parts[-1], force=parts[0] if len(parts) == 2 else "")
 
 
-def foot_of(topic: str) -> str | None:
+def foot_of_topic(topic: str) -> str | None:
     """Return which foot the name of a topic speaks of; None for neither, or for both."""
     words = {word.rstrip("0123456789") for word in re.split(r"[^a-z0-9]+", _words(topic))}
     feet = [
@@ -97,7 +97,7 @@ def _words(topic: str) -> str:
 
 
 def _by_name(foot: str, usual: FootTopics, present: Mapping[str, TopicInfo]) -> FootTopics:
-    own = {topic: info for topic, info in present.items() if foot_of(topic) == foot}
+    own = {topic: info for topic, info in present.items() if foot_of_topic(topic) == foot}
     whole = [t for t, info in own.items() if info.msgtype == IMU_TYPE and not _is_half(t, own)]
     candidates = [replace(usual, imu=topic) for topic in sorted(whole)]
     candidates = candidates or [replace(usual, imu=r, force=f) for f, r in _pairs(own)]

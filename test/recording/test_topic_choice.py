@@ -4,7 +4,7 @@ import pytest
 
 from dualfoot_ros.core import RecordingError
 from dualfoot_ros.recording import TopicInfo, choose_topics
-from dualfoot_ros.recording.topic_choice import foot_of
+from dualfoot_ros.recording.topic_choice import foot_of_topic
 from dualfoot_ros.recording.topics import IMU_TYPE, VECTOR_TYPE
 
 NOTHING = {"left": None, "right": None}
@@ -32,7 +32,7 @@ def bag(*imu, vector=()):
     ],
 )
 def test_a_name_says_a_foot_by_a_word_of_its_own(topic, foot):
-    assert foot_of(topic) == foot
+    assert foot_of_topic(topic) == foot
 
 
 def test_the_usual_topics_are_taken_without_a_word():

@@ -18,8 +18,11 @@ from ..ros.status import Status
 from ..ros.watched_input import InputMonitor, Watched, WatchedInput
 from .stamp_gap import StampGap
 from .stamper import Stamper
+from .topic_search import TopicSearch
 
 ReadSample = Callable[[str, Imu, int], FloatArray]
+RAW = "imu/data_raw"
+CHOOSE = f"--ros-args -r left/{RAW}:=/TOPIC -r right/{RAW}:=/TOPIC"
 TakePair = Callable[[ImuPair], None]
 
 
@@ -31,6 +34,7 @@ class FootStreams:
     inputs : the subscriptions, by foot
     stamper : gives each sample its stamp, or refuses it
     aligner : makes the pairs
+    search : looks for raw topics of other names, where nobody publishes the usual ones
     """
 
     def __init__(
@@ -67,6 +71,9 @@ class FootStreams:
             foot: WatchedInput(node, Imu, f"{foot}/{topic}", self._receiver(foot), profile, remedy)
             for foot in FEET
         }
+        usual = {foot: f"{foot}/{topic}" for foot in FEET}
+        raw = topic == RAW
+        self.search = TopicSearch(node, self.inputs, usual, CHOOSE) if raw else None
         self.monitor = InputMonitor(node, [*self.inputs.values(), *also], config)
 
     def _receiver(self, foot: str) -> Callable[[Imu], None]:

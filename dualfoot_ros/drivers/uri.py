@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import PurePath
 from typing import NamedTuple
 from urllib.parse import parse_qsl, unquote, urlsplit
 
@@ -31,7 +32,8 @@ SCHEMES: dict[str, Scheme] = {
     "ble": Scheme(BleConfig, "ble://D4:22:CD:00:12:34?payload=rate"),
     "file": Scheme(FileConfig, "file://walk.csv"),
 }
-DEFAULT_FORMATS = {"ble": "dot", "file": "dot_csv"}
+DEFAULT_FORMATS = {"ble": "dot"}
+SUFFIX_FORMATS = {".csv": "dot_csv", ".ximu3": "ximu3"}  # of files
 
 
 @dataclass(frozen=True)
@@ -101,8 +103,9 @@ def _parse_options(uri: str, scheme: str, location: str, query: dict[str, str]) 
 
 
 def _choose_format(uri: str, scheme: str, location: str) -> str:
-    plain_file = scheme == "file" and not location.lower().endswith(".csv")
-    if scheme not in DEFAULT_FORMATS or plain_file:
+    if scheme == "file" and (suffix := PurePath(location).suffix.lower()) in SUFFIX_FORMATS:
+        return SUFFIX_FORMATS[suffix]
+    if scheme not in DEFAULT_FORMATS:
         raise SourceError(
             f"source '{uri}' does not say what the device sends; add format= with one of "
             f"{', '.join(FORMATS)}"

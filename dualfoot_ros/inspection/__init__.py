@@ -1,5 +1,6 @@
 """What a recording or a live stream is worth: facts in figures, and findings."""
 
+from .arrival_facts import ArrivalFacts, advice_on, arrival_facts, describe_arrival
 from .field_facts import FieldFacts, field_facts, recorded_fields
 from .findings import (
     GRAVITY_ERROR,
@@ -25,6 +26,7 @@ __all__ = [
     "GRAVITY_ERROR",
     "STUCK_SHARE",
     "TRIADS",
+    "ArrivalFacts",
     "Channel",
     "FieldFacts",
     "Finding",
@@ -37,7 +39,10 @@ __all__ = [
     "SideBySide",
     "StanceStatistics",
     "Stuck",
+    "advice_on",
+    "arrival_facts",
     "check_usable",
+    "describe_arrival",
     "field_facts",
     "findings_of",
     "held_at_rest",

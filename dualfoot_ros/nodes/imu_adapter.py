@@ -36,6 +36,7 @@ from .adapter import source_uri as sources
 from .adapter.adapter_report import AdapterReport
 from .adapter.conversion import Conversion
 from .adapter.device import Device
+from .adapter.first_seconds import FirstSeconds
 from .adapter.losses import in_words, select_counts
 from .inputs.calibrations import FOOT_UNKNOWN, find_foot, load_for_sensor
 from .inputs.field_topics import FieldOutput
@@ -123,6 +124,7 @@ class ImuAdapterNode(Node):
         source = sources.parse(self._config.source)
         stamping = sources.choose_stamping(source, self._config, self._foot)
         self.stamper = Stamper(stamping, group(DeviceClockConfig, values, "clock."))
+        self.first_seconds = FirstSeconds(self, source, self.stamper)
         self._open(source, values)
         self._reporter = Reporter(self, values, self._make_report().collect)
 
@@ -231,6 +233,7 @@ class ImuAdapterNode(Node):
         self, message: Imu, header_ns: int | None, arrival_ns: int, sensed: FloatArray
     ) -> int | None:
         """Publish a sample; return its stamp, None when it gets none."""
+        self.first_seconds.add(header_ns, arrival_ns, sensed)
         stamp_ns = self._stamp(header_ns, arrival_ns)
         if stamp_ns is None:
             return None

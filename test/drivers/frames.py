@@ -20,6 +20,7 @@ FORMATS = (
     "vectornav_ascii",
     "dot_csv",
 )
+TIMED = tuple(name for name in FORMATS if name != "vectornav_ascii")  # which sends no time
 CSV_HEADER = (
     b"sep=,\r\nDeviceTag:,A\r\nOutputRate:,200Hz\r\n\r\n"
     b"PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z,Mag_X,Mag_Y,Mag_Z\r\n"

@@ -13,6 +13,7 @@ from dualfoot_ros.drivers.protocols.registry import make_decoder
 from ..frames import (
     FORMATS,
     PERIOD_US,
+    TIMED,
     decoder_format,
     frame,
     preamble,
@@ -22,7 +23,6 @@ from ..frames import (
 
 TOLERANCE = {"mcu": 1e-6, "ximu3_ascii": 2e-4}
 CHECKSUMMED = ("mcu", "witmotion", "xbus", "vectornav")
-TIMED = [name for name in FORMATS if name != "vectornav_ascii"]  # which sends no time
 formats = pytest.mark.parametrize("name", FORMATS)
 
 

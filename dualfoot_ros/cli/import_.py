@@ -35,6 +35,8 @@ examples:
   dualfoot import --left L.csv --right R.csv -o walk
   dualfoot import --left L.csv --right R.csv --axes=+y-x+z --right-offset 162.49 -o walk
   dualfoot import --left L.csv --right R.csv --pressure both=baro.csv -o walk
+  dualfoot import --left L.ximu3 --right R.ximu3 -o walk
+  dualfoot import --left L.bin --right R.bin --capture xbus -o walk
   dualfoot import walk.bag --stamps log -o walk
   dualfoot import drive.mcap --left-topic /imu_l --right-topic /imu_r --rate-unit deg/s -o walk
 
@@ -89,6 +91,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "may be repeated",
     )
     _add_bag_arguments(parser)
+    _add_capture_arguments(parser)
     add_storage_arguments(parser)
 
 
@@ -114,6 +117,25 @@ def _add_bag_arguments(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--rate-unit", default="rad/s", choices=RATE_UNITS, help="unit of the angular rate"
+    )
+
+
+def _add_capture_arguments(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("bytes captured from devices (format capture)")
+    group.add_argument(
+        "--capture",
+        default="",
+        metavar="FORMAT",
+        help="format of the files of --left and --right, as a live source has it, with options of "
+        "the decoder behind a '?': ximu3, xbus, witmotion?force_range=4 (default: by the ending "
+        ".ximu3)",
+    )
+    group.add_argument(
+        "--capture-rate",
+        type=float,
+        default=0.0,
+        metavar="HZ",
+        help="samples a second of a device that sends no time",
     )
 
 
@@ -161,6 +183,8 @@ def _options(args: argparse.Namespace) -> ImportOptions:
         force_unit=args.force_unit,
         rate_unit=args.rate_unit,
         stamps=args.stamps,
+        capture=args.capture,
+        capture_rate=args.capture_rate,
     )
 
 
@@ -172,7 +196,7 @@ def _report(output: Path, recording: Recording) -> None:
     reference = recording.reference
     if reference is not None:
         print(f"reference: {reference.summary()}")
-    for key in ("topics", "stamps"):
+    for key in ("topics", "stamps", "losses"):
         if key in recording.notes:
             print(f"{key}: {recording.notes[key]}")
     print(f"wrote {output}")

@@ -35,6 +35,7 @@ class Format:
 
 OF_ALL = ("sources", "left", "right", "right_offset_s")
 FOLDER = "/"
+CAPTURE = "capture"
 BAG_SUFFIXES = (FOLDER, ".mcap", ".db3", ".bag")
 FORMATS = (
     Format(
@@ -48,14 +49,21 @@ FORMATS = (
         "two .csv exports of the Xsens DOT app, one a foot (--left, --right)",
         (".csv",),
         "xsens_dot",
-        ("axes", "field_scale"),
+        options=("axes", "field_scale"),
     ),
     Format(
         "rosbag",
         "a bag, also of ROS 1, whose topics have other names, axes, units or stamps",
         BAG_SUFFIXES,
         "rosbag",
-        ("axes", "left_topic", "right_topic", "force_unit", "rate_unit", "stamps"),
+        options=("axes", "left_topic", "right_topic", "force_unit", "rate_unit", "stamps"),
+    ),
+    Format(
+        CAPTURE,
+        "bytes captured from two devices, one file a foot (--left, --right, --capture)",
+        (".ximu3",),
+        "captures",
+        options=("axes", "capture", "capture_rate"),
     ),
 )
 
@@ -79,6 +87,8 @@ def import_recording(options: ImportOptions, name: str = "auto") -> Recording:
         if not file.exists():
             raise RecordingError(f"there is no file '{file}'")
     suffix = FOLDER if files[0].is_dir() else files[0].suffix.lower()
+    if name == "auto" and options.capture:
+        name = CAPTURE
     chosen = _format(name, suffix)
     check_options(options, chosen)
     recording = chosen.load(options)

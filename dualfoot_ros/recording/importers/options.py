@@ -23,6 +23,8 @@ class ImportOptions:
     field_scale : tesla per unit of the magnetometer, 0 leaves it out
     left_topic, right_topic : sensor_msgs/Imu topics of a bag, or two as "ACCELEROMETER,GYRO"; None
         for those this package writes, else those whose names say which foot they are of
+    capture : format of captured bytes, and options of its decoder, as ``witmotion?force_range=4``
+    capture_rate : samples a second of a captured device that sends no time; 0 for one that does
     stamps : stamps of a bag, one of ``STAMPS``: those of the headers as they are, the log times
         evened out, or those of the headers evened out by the number of the sample
     force_unit, rate_unit : units of a bag's samples, keys of ``FORCE_UNITS``, ``RATE_UNITS``
@@ -39,3 +41,5 @@ class ImportOptions:
     force_unit: str = "m/s^2"
     rate_unit: str = "rad/s"
     stamps: str = "header"
+    capture: str = ""
+    capture_rate: float = 0.0

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from drivers.frames import stream
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.io import savemat
@@ -290,6 +291,11 @@ def test_every_format_loads_by_its_name(tmp_path, pair):
     }
     bag = write_bag(tmp_path / "bag", import_recording(sources["dual-feet"]))
     sources["rosbag"] = ImportOptions((bag,))
+    for foot in ("left", "right"):
+        (tmp_path / f"{foot}.ximu3").write_bytes(stream("ximu3", 20))
+    sources["capture"] = ImportOptions(
+        left=tmp_path / "left.ximu3", right=tmp_path / "right.ximu3"
+    )
     for known in FORMATS:
         for name in (known.name, "auto"):
             assert len(import_recording(sources[known.name], name).left) == 20

@@ -110,9 +110,14 @@ def arrival_facts(
     )
 
 
-def describe_arrival(facts: ArrivalFacts) -> str:
-    """Return rate, clock, gravity and axes in one line."""
-    clock = "its own clock" if facts.device_time else "no clock of its own"
+def describe_arrival(
+    facts: ArrivalFacts, clocks: tuple[str, str] = ("its own clock", "no clock of its own")
+) -> str:
+    """Return rate, clock, gravity and axes in one line.
+
+    ``clocks`` are the words for samples with time of their own and for those without.
+    """
+    clock = clocks[0] if facts.device_time else clocks[1]
     state = "at rest" if facts.still else "in motion"
     up = f", {facts.up} up" if facts.up else ""
     return (

@@ -124,7 +124,7 @@ class ImuAdapterNode(Node):
         source = sources.parse(self._config.source)
         stamping = sources.choose_stamping(source, self._config, self._foot)
         self.stamper = Stamper(stamping, group(DeviceClockConfig, values, "clock."))
-        self.first_seconds = FirstSeconds(self, source, self.stamper)
+        self.first_seconds = FirstSeconds(self, source, self.stamper, lambda: self._input.topic)
         self._open(source, values)
         self._reporter = Reporter(self, values, self._make_report().collect)
 
@@ -255,6 +255,7 @@ class ImuAdapterNode(Node):
         if error is not None:
             self.done.set_exception(error)
             return
+        self.first_seconds.report()  # of a file that was shorter than these
         log, text = self.get_logger(), f"played {self.counters['relayed']} samples"
         if losses := in_words(select_counts(self._outcomes())):
             log.warning(f"{text}, the file is over; lost or refused: {losses}")

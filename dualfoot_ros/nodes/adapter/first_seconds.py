@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
@@ -12,6 +14,9 @@ from ...inspection import advice_on, arrival_facts, describe_arrival
 from ..inputs.stamper import Stamper
 from .source_uri import DEVICE, Source, is_live
 
+TOPIC = "topic"
+HEADERS = "stamps in the headers", "headers without stamps"
+DEVICES = "its own clock", "no clock of its own"
 REPORT_AFTER = 4.5  # s
 LEAST_SAMPLES = 20
 MOST_SAMPLES = 10_000
@@ -23,10 +28,15 @@ class FirstSeconds:
     ``said`` holds the lines that were logged; no sample is kept after that.
     """
 
-    def __init__(self, node: Node, source: Source, stamper: Stamper) -> None:
-        """Report ``REPORT_AFTER`` seconds from now, or later when no samples have come."""
+    def __init__(
+        self, node: Node, source: Source, stamper: Stamper, topic: Callable[[], str]
+    ) -> None:
+        """Report ``REPORT_AFTER`` seconds from now, or later when no samples have come.
+
+        ``topic`` returns the name of the topic that is relayed.
+        """
         self.said: list[str] = []
-        self._node, self._source, self._stamper = node, source, stamper
+        self._node, self._source, self._stamper, self._topic = node, source, stamper, topic
         self._samples: list[tuple[int | None, int, FloatArray]] = []
         self._done = False
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -48,19 +58,27 @@ class FirstSeconds:
         values = np.array([sample for _, _, sample in samples])
         times = [time for time, _, _ in samples if time is not None]
         has_time = len(times) == len(samples) and any(times)  # zeros are no stamps
-        stamps = times if has_time else [arrival for _, arrival, _ in samples]
+        stamps = times if has_time else self._arrivals(samples)
         facts = arrival_facts(
             np.array(stamps, dtype=np.int64), values[:, :3], values[:, 3:], has_time
         )
         advice = advice_on(facts, units_known=self._source.kind == DEVICE)
-        line = f"receives {describe_arrival(facts)}{self._describe_format()}{self._clock()}"
+        words = describe_arrival(facts, HEADERS if self._source.kind == TOPIC else DEVICES)
+        line = f"receives {words}{self._describe_format()}{self._clock()}"
         self._say(line if advice else f"{line}; nothing to change", warn=False)
         for name, text in advice.items():
             self._say(f"{name}: {text}", warn=True)
 
+    def _arrivals(self, samples: Sequence[tuple[int | None, int, FloatArray]]) -> list[int]:
+        """Return the times of arrival; zeros for a file, whose pace says nothing."""
+        told = self._source.kind == TOPIC or is_live(self._source)
+        return [arrival if told else 0 for _, arrival, _ in samples]
+
     def _describe_format(self) -> str:
+        if self._source.kind == TOPIC:
+            return f"; from topic {self._topic()}"
         if self._source.kind != DEVICE:
-            return f"; from {self._source.kind} {self._source.target}"
+            return f"; from {self._source.target}"
         return f"; format {parse_uri(self._source.target).format}"
 
     def _clock(self) -> str:

@@ -12,7 +12,7 @@ from ...recording import IMU_TYPE, foot_of_topic
 from ..ros.watched_input import WatchedInput
 
 LOOK_EVERY = 0.5  # s
-PATIENCE = 4  # looks without a publisher, after which others are looked for
+PATIENCE = 3  # looks without a publisher, after which others are looked for
 OWN = ("imu/data_raw", "imu/data_sync")  # of the nodes of this package
 
 
@@ -75,8 +75,9 @@ class TopicSearch:
             self._open.pop(foot).move(topic)
         self.taken |= topics
         words = " and ".join(f"{topic} as {foot}" for foot, topic in topics.items())
+        says = "the name says" if len(topics) == 1 else "the names say"
         self._node.get_logger().info(
-            f"taking {words}, because of their names and as nobody publishes {usual}"
+            f"taking {words}, because {says} so and nobody publishes {usual}"
         )
 
     def _list_topics(self) -> list[str]:

@@ -71,7 +71,7 @@ class WatchedInput:
         """Subscribe to another topic instead; its publisher numbers its messages anew."""
         self._node.destroy_subscription(self._subscription)
         self._subscription, self._number = self._subscribe(topic), None
-        self._free_s = time.monotonic()
+        self.last_s = self._free_s = time.monotonic()
 
     @property
     def topic(self) -> str:

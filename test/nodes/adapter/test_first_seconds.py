@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from drivers.frames import stream
+from drivers.frames import stream, vectornav_ascii
 from sensor_msgs.msg import Imu
 
 from dualfoot_ros.drivers import SourceError
@@ -58,7 +58,7 @@ def test_parameters_that_were_set_are_not_advised_again(topic):
 
 def test_headers_of_zero_are_no_clock(topic):
     lines = topic(STANDING, zero_stamps=True)
-    assert "no clock of its own" in lines[0]
+    assert "headers without stamps" in lines[0]
 
 
 def test_nothing_is_said_before_there_are_samples(bench):
@@ -75,3 +75,14 @@ def test_a_capture_taken_for_another_format_is_recognised(bench, tmp_path):
     bench.until(node.done.done, "the end of the file")
     with pytest.raises(SourceError, match="the bytes are of the format 'witmotion'"):
         node.done.result()
+
+
+def test_a_file_that_is_over_sooner_is_described_and_its_pace_is_no_rate(bench, tmp_path):
+    path = tmp_path / "capture.txt"
+    path.write_bytes(b"".join(vectornav_ascii(k) for k in range(200)))
+    source = f"file://{path}?format=vectornav_ascii"
+    node = bench.add(ImuAdapterNode, {"source": source, "play.wait": 0.0}, namespace="left")
+    bench.until(node.done.done, "the end of the file")
+    (line, *_) = node.first_seconds.said
+    assert "rate unknown, no clock of its own" in line
+    assert "format vectornav_ascii" in line

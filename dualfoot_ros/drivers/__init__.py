@@ -4,7 +4,7 @@ from ..core import SourceError
 from .checks import CheckConfig, SensorCheck, SensorFault, SensorFinding
 from .conditioning import Conditioner, ConditioningConfig
 from .probing.listening import BAUDS, Chunk, Heard, listen
-from .probing.recognition import Recognition, recognise
+from .probing.recognition import Recognition, devices_on_bus, recognise
 from .probing.scan import Found, announced_devices, bluetooth_devices, serial_ports
 from .protocols.decoder import COUNTERS, Decoder
 from .protocols.registry import FORMATS, make_decoder
@@ -48,6 +48,7 @@ __all__ = [
     "Transport",
     "announced_devices",
     "bluetooth_devices",
+    "devices_on_bus",
     "listen",
     "make_decoder",
     "make_transport",

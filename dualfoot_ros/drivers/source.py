@@ -11,7 +11,6 @@ from typing import Self
 from ..core import Refusal
 from .checks import CheckConfig, SensorCheck
 from .conditioning import Conditioner, ConditioningConfig
-from .protocols.dot import DotConfig
 from .protocols.registry import make_decoder
 from .reader import Reader, State
 from .sample import Sample
@@ -166,8 +165,7 @@ def make_transport(uri: SourceUri) -> Transport:
         case TcpConfig():
             return TcpTransport(address.parse(uri.location), uri.transport)
         case BleConfig():
-            dot = uri.decoder if isinstance(uri.decoder, DotConfig) else None
-            return BleTransport(uri.location, uri.transport, dot)
+            return BleTransport(uri.location, uri.transport, uri.decoder)
         case FileConfig():
             return FileTransport(uri.location, uri.transport)
     raise AssertionError(uri)

@@ -32,6 +32,7 @@ SCHEMES: dict[str, Scheme] = {
     "ble": Scheme(BleConfig, "ble://D4:22:CD:00:12:34?payload=rate"),
     "file": Scheme(FileConfig, "file://walk.csv"),
 }
+BLE_FORMATS = ("dot", "witmotion")
 DEFAULT_FORMATS = {"ble": "dot"}
 SUFFIX_FORMATS = {".csv": "dot_csv", ".ximu3": "ximu3"}  # of files
 
@@ -114,11 +115,13 @@ def _choose_format(uri: str, scheme: str, location: str) -> str:
 
 
 def _check_fit(uri: str, scheme: str, chosen: str) -> None:
-    if (scheme == "ble") != (chosen == "dot"):
+    if scheme == "ble" and chosen not in BLE_FORMATS:
         raise SourceError(
-            f"source '{uri}' has the format '{chosen}'; 'dot' goes with ble:// and nothing else "
-            "does"
+            f"source '{uri}' has the format '{chosen}'; allowed over ble:// is one of "
+            f"{', '.join(BLE_FORMATS)}"
         )
+    if scheme != "ble" and chosen == "dot":
+        raise SourceError(f"source '{uri}' has the format 'dot', which goes with ble:// only")
 
 
 def from_text(group: type[Parameters], query: dict[str, str]) -> Parameters:

@@ -9,12 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from ..core import METHODS, TrackerConfig, Trajectory, nested
-from ..inspection import Finding, check_usable, unconstrained_config, walk_findings
+from ..inspection import Finding, FindingKind, check_usable, unconstrained_config, walk_findings
 from ..recording import Correction, Recording, Reference
 from ..settings import flat, load_config
 from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options
 from .track import track, truth_of
+
+SAID = (FindingKind.CUT_OFF, FindingKind.JITTER)  # of the recording, and in no counter
 
 
 @dataclass(frozen=True)
@@ -93,11 +95,13 @@ def run_checked(
         reference=recording.reference,
         options=options.alignment,
     )
+    said = [finding for finding in findings if finding.kind in SAID]
     of_walk = list(_walk_findings(recording, config, trajectory)) if options.check_feet else []
+    said += of_walk
     return replace(
         evaluation,
         findings=(*findings, *of_walk),
-        notes=(*evaluation.notes, *(f"warning: {finding.sentence}" for finding in of_walk)),
+        notes=(*evaluation.notes, *(f"warning: {finding.sentence}" for finding in said)),
         run_s=run_s,
     )
 

@@ -64,6 +64,9 @@ def test_stamps_of_arrival_are_warned_of_and_evened_out_as_the_warning_says(
     assert advice in said
     assert "'dualfoot import BAG --stamps index -o NEW'" in said
     assert (done.returncode == 0) is usable
+    evaluated = dualfoot("evaluate", bag, "--method", "zupt")
+    assert (evaluated.returncode == 0) is usable
+    assert advice in evaluated.stdout + evaluated.stderr
     done = dualfoot("import", bag, "--stamps", "index", "-o", "even", cwd=tmp_path)
     assert done.returncode == 0
     assert "(0 samples missing)" in done.stdout
@@ -107,6 +110,7 @@ def test_a_bag_that_was_cut_off_is_described_as_far_as_it_goes(tmp_path, walk, d
     assert done.returncode == 0
     assert "warning: the recording is not whole: 'walk.mcap' was cut off" in done.stdout
     assert "reindex" not in done.stdout + done.stderr
+    assert "cut off" in dualfoot("evaluate", bag, "--method", "zupt").stdout
     counts = [int(n) for n in re.findall(r"data_raw .*?(\d+) messages", done.stdout)]
     assert counts == pytest.approx([0.7 * len(walk.left)] * 2, rel=0.02)
 

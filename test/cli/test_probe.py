@@ -1,10 +1,11 @@
 """`dualfoot probe` as a user runs it: a capture, two feet, what cannot be read, a scan."""
 
 import json
+import struct
 
 import pytest
 import yaml
-from drivers.frames import stream
+from drivers.frames import item, stream
 
 from dualfoot_ros.settings import node_parameter_names
 
@@ -93,3 +94,16 @@ def test_a_scan_lists_each_kind_and_says_what_is_missing(monkeypatch, dualfoot):
     assert "dualfoot probe 'serial:///dev/ttyUSB0'" in done.stdout
     assert "x-IMU3 in the network: none" in done.stdout
     assert "Bluetooth needs bleak" in done.stderr
+
+
+def test_devices_that_share_a_bus_are_listed_with_how_to_choose(capture, dualfoot):
+    data = b""
+    for k in range(60):
+        for device in (1, 2):
+            motion = item(0x1060, struct.pack(">I", 50 * k)) + item(0x8020, bytes(12))
+            content = motion + item(0x4020, struct.pack(">3f", 0.01 * (k % 3), 0.0, 9.8))
+            body = bytes([device, 0x36, len(content)]) + content
+            data += b"\xfa" + body + bytes([-sum(body) % 256])
+    done = dualfoot("probe", capture("bus", data))
+    assert "several devices are on the bus: 1, 2; choose one with bus_id=" in done.stderr
+    assert "60 samples" in done.stderr

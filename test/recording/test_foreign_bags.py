@@ -127,3 +127,15 @@ def test_equal_stamps_on_two_topics_are_joined_to_the_bit(tmp_path):
     found = read_bag(path, topics=find_topics(path).topics).left
     assert np.array_equal(found.specific_force, series.specific_force)
     assert np.array_equal(found.angular_rate, series.angular_rate)
+
+
+def test_a_damaged_chunk_without_an_index_is_told(tmp_path):
+    path = write_bag(tmp_path / "walk", recording())
+    (file,) = path.glob("*.mcap")
+    raw = bytearray(file.read_bytes())
+    raw[len(raw) // 2 : len(raw) // 2 + 40] = bytes(40)
+    del raw[-20:]  # and with it the index
+    file.write_bytes(raw)
+    read = read_bag(path)
+    assert 0 < len(read.left) < len(recording().left)
+    assert "'walk.mcap' is damaged; the" in read.cut

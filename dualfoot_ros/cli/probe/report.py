@@ -9,10 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from ...drivers import BAUDS, Heard, SampleSeries, listen, make_decoder, parse_uri, series_of
+from ...drivers import (
+    BAUDS,
+    Heard,
+    SampleSeries,
+    devices_on_bus,
+    listen,
+    make_decoder,
+    parse_uri,
+    series_of,
+)
 from ...inspection import ArrivalFacts, advice_on, arrival_facts, describe_arrival
 
 LEAST_SAMPLES = 5
+XBUS = "xbus"
 FILE = "file:"
 
 
@@ -106,6 +116,11 @@ def _problems(heard: Heard) -> list[str]:
     if len(senders) > 1:
         names = ", ".join(senders)
         return [f"several devices send here: {names}; give each a port, or list peers= in the URI"]
+    if heard.recognised and heard.recognised[0].format == XBUS:
+        devices = devices_on_bus(chunk.data for chunk in heard.chunks)
+        if len(devices) > 1:
+            names = ", ".join(map(str, devices))
+            return [f"several devices are on the bus: {names}; choose one with bus_id= in the URI"]
     return []
 
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from ...core import Refusal
 from ..protocols.registry import FORMATS, make_decoder
+from ..protocols.xbus import XbusDecoder
 
 LEAST_SAMPLES = 3
 LEAST_FRAMES = 5
@@ -41,6 +42,14 @@ def recognise(chunks: Iterable[bytes]) -> list[Recognition]:
     found = [_try(name, pieces) for name in FORMATS if name != BLE_ONLY]
     fitting = [each for each in found if each is not None]
     return sorted(fitting, key=lambda r: (r.samples > 0, r.samples * (1.0 - r.garbage)))[::-1]
+
+
+def devices_on_bus(chunks: Iterable[bytes]) -> list[int]:
+    """Return the identifiers of the Xsens devices that share one bus, in their order."""
+    decoder = XbusDecoder()
+    for data in chunks:
+        decoder.feed(data, 0)
+    return sorted(number for number, count in decoder.devices.items() if count >= LEAST_SAMPLES)
 
 
 def _try(name: str, chunks: list[bytes]) -> Recognition | None:

@@ -15,6 +15,7 @@ from ...core import SourceError
 ANNOUNCEMENTS = 10000  # UDP port on which an x-IMU3 announces itself, about once a second
 ANY = "0.0.0.0"  # noqa: S104  (announcements are broadcast to the network)
 POLL_S = 0.1
+WITMOTION = "WT"  # how the names of WitMotion's devices begin
 
 
 class Found(NamedTuple):
@@ -57,7 +58,11 @@ def bluetooth_devices(seconds: float = 5.0) -> list[Found]:
     except Exception as error:  # bleak has errors of its own for each system
         raise SourceError(f"Bluetooth cannot be used: {error}") from error
     named = [device for device in devices if device.name]
-    return [Found((f"ble://{d.address}",), str(d.name)) for d in sorted(named, key=str)]
+    return [Found((_ble_uri(d.address, d.name),), d.name) for d in sorted(named, key=str)]
+
+
+def _ble_uri(address: str, name: str) -> str:
+    return f"ble://{address}{'?format=witmotion' if name.startswith(WITMOTION) else ''}"
 
 
 def announced_devices(seconds: float = 3.0, port: int = ANNOUNCEMENTS) -> list[Found]:

@@ -19,11 +19,11 @@ from ..ros.program import in_one_line
 
 RECORDED = "file"
 DEVICE = "device"
-BAGS = (".mcap", ".db3")
+BAGS = (".mcap", ".db3", ".bag")
 CAPTURED = tuple(name for name in FORMATS if name != "dot")  # which comes over BLE only
 ALLOWED = (
-    "topic:///NAME or file://PATH (the folder of a bag, a .mcap, a .db3, an Xsens DOT .csv), or a "
-    "device, as in serial:///dev/ttyUSB0?baud=921600&format=mcu, udp://:8000?format=ximu3, "
+    "topic:///NAME or file://PATH (the folder of a bag, a .mcap, .db3 or .bag, an Xsens DOT .csv) "
+    "or a device, as in serial:///dev/ttyUSB0?baud=921600&format=mcu, udp://:8000?format=ximu3, "
     "tcp://192.168.1.5:7000?format=ximu3, ble://D4:22:CD:00:12:34"
 )
 DEVICES = ("serial", "udp", "tcp", "ble")

@@ -10,6 +10,7 @@ import struct
 import sys
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator
+from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
@@ -22,6 +23,7 @@ HEAD = struct.Struct("<BQ")  # opcode and length of a record
 MESSAGE_HEAD = struct.Struct("<HIQQ")  # channel, sequence, log time, publish time
 CHUNK_HEAD = struct.Struct("<QQQII")  # first and last time, size, checksum, length of a name
 MAX_RECORD = 1 << 31
+PIECE = 4096
 
 
 class Record(NamedTuple):
@@ -48,16 +50,15 @@ class McapScan:
         self._names: dict[int, str] = {}  # of channels
         self._types: dict[str, str] = {}
         self._schemas: dict[int, str] = {}
-        self._ended = False
+        self._ended, self._lacks = False, False
         counts = Counter(message.topic for message in self._messages(None))
         self.topics = {t: TopicInfo(m, counts[t]) for t, m in self._types.items()}
-        self.cut = "" if self._ended else self._describe_cut(sum(counts.values()))
+        whole = self._ended and not self._lacks
+        self.cut = "" if whole else self._describe_cut(sum(counts.values()))
 
     def _describe_cut(self, messages: int) -> str:
-        return (
-            f"'{self._path.name}' was cut off before its end; the {messages} messages that are "
-            "whole are read"
-        )
+        what = "is damaged" if self._ended else "was cut off before its end"
+        return f"'{self._path.name}' {what}; the {messages} messages that are whole are read"
 
     def messages(self, topics: Collection[str]) -> Iterator[Message]:
         """Yield the messages of ``topics`` that are whole."""
@@ -69,12 +70,23 @@ class McapScan:
     def _messages(self, topics: Collection[str] | None) -> Iterator[Message]:
         with self._path.open("rb") as file:
             for record in _records(file):
-                inner = _chunk_records(record) if record.opcode == CHUNK else iter((record,))
-                for opcode, content, _ in inner:
+                for opcode, content, _ in self._inner(record):
                     if opcode == MESSAGE:
                         yield from self._message(content, topics)
                     else:
                         self._learn(opcode, content)
+
+    def _inner(self, record: Record) -> Iterator[Record]:
+        """Yield the records of a chunk, as many as are whole, or the record itself."""
+        if record.opcode != CHUNK:
+            yield record
+            return
+        if len(record.content) < CHUNK_HEAD.size:
+            return
+        *_, size, _, _ = CHUNK_HEAD.unpack_from(record.content)
+        records = _decompress(record.content)
+        self._lacks = self._lacks or len(records) < size
+        yield from _split(records)
 
     def _message(self, content: bytes, topics: Collection[str] | None) -> Iterator[Message]:
         channel, _, log_ns, _ = MESSAGE_HEAD.unpack_from(content)
@@ -110,14 +122,16 @@ def _records(file: BinaryIO) -> Iterator[Record]:
             return
 
 
-def _chunk_records(chunk: Record) -> Iterator[Record]:
-    """Yield the records of a chunk, as many as are whole."""
-    if len(chunk.content) < CHUNK_HEAD.size:
-        return
-    length = CHUNK_HEAD.unpack_from(chunk.content)[4]
+def _decompress(chunk: bytes) -> bytes:
+    """Return as much as there is of the records of a chunk."""
+    length = CHUNK_HEAD.unpack_from(chunk)[4]
     start = CHUNK_HEAD.size + length + 8  # behind the size of the records
-    name = chunk.content[CHUNK_HEAD.size : start - 8].decode("utf-8", "replace")
-    records = _decompressor(name)(chunk.content[start:])
+    name = chunk[CHUNK_HEAD.size : start - 8].decode("utf-8", "replace")
+    return _decompressor(name)(chunk[start:])
+
+
+def _split(records: bytes) -> Iterator[Record]:
+    """Yield the records that follow each other in the bytes, as many as are whole."""
     at = 0
     while at + HEAD.size <= len(records):
         opcode, length = HEAD.unpack_from(records, at)
@@ -140,18 +154,23 @@ def _decompressor(name: str) -> Callable[[bytes], bytes]:
 
 def _lz4(data: bytes) -> bytes:
     frame = import_module("lz4.frame")
-    try:
-        return bytes(frame.LZ4FrameDecompressor().decompress(data))
-    except RuntimeError:  # its first block is not whole
-        return b""
+    return _in_pieces(frame.LZ4FrameDecompressor().decompress, data, (EOFError, RuntimeError))
 
 
 def _zstd(data: bytes) -> bytes:
     zstd = import_module("compression.zstd" if sys.version_info >= (3, 14) else "backports.zstd")
-    try:
-        return bytes(zstd.ZstdDecompressor().decompress(data))
-    except (EOFError, zstd.ZstdError):
-        return b""
+    return _in_pieces(zstd.ZstdDecompressor().decompress, data, (EOFError, zstd.ZstdError))
+
+
+def _in_pieces(
+    decompress: Callable[[bytes], bytes], data: bytes, errors: tuple[type[Exception], ...]
+) -> bytes:
+    """Return what comes out before the first piece that is damaged."""
+    found = bytearray()
+    with suppress(*errors):
+        for at in range(0, len(data), PIECE):
+            found += decompress(data[at : at + PIECE])
+    return bytes(found)
 
 
 def _u16(content: bytes, at: int) -> int:

@@ -87,11 +87,13 @@ def test_bluetooth_needs_bleak_and_lists_what_has_a_name(monkeypatch):
         bluetooth_devices(0.1)
 
     async def discover(timeout):
-        named = SimpleNamespace(address="D4:22:CD:00:12:34", name="Xsens DOT")
-        return [SimpleNamespace(address="00:00:00:00:00:01", name=None), named]
+        names = {"01": None, "34": "Xsens DOT", "56": "WT901BLE68"}
+        return [SimpleNamespace(address=f"D4:22:CD:00:12:{a}", name=n) for a, n in names.items()]
 
     monkeypatch.setattr(scan.util, "find_spec", lambda n: object())
     bleak = SimpleNamespace(BleakScanner=SimpleNamespace(discover=discover))
     monkeypatch.setitem(sys.modules, "bleak", bleak)
-    (found,) = bluetooth_devices(0.1)
-    assert found == (("ble://D4:22:CD:00:12:34",), "Xsens DOT")
+    assert bluetooth_devices(0.1) == [
+        (("ble://D4:22:CD:00:12:34",), "Xsens DOT"),
+        (("ble://D4:22:CD:00:12:56?format=witmotion",), "WT901BLE68"),
+    ]

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     Arguments = argparse._ActionsContainer  # noqa: SLF001  (a parser or a group; it has no other name)
 
-BAG = "rosbag2 folder (or its one file)"
+BAG = "rosbag2 folder, or a .mcap, .db3 or (ROS 1) .bag file"
 MOST_JOBS = 256
 
 

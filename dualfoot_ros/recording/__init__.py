@@ -9,7 +9,7 @@ from .recording import Correction, Recording
 from .reference import Reference
 from .storage.bag_source import TopicInfo
 from .storage.bag_writer import new_bag
-from .topic_choice import TopicChoice, choose_topics, find_topics, foot_of_topic
+from .topic_choice import TopicChoice, choose_topics, find_topics, topics_of_foot
 from .topics import IMU_TYPE, PRESSURE_TOPICS, Topics
 from .write import STORAGES, write_bag
 
@@ -29,7 +29,6 @@ __all__ = [
     "check_target",
     "choose_topics",
     "find_topics",
-    "foot_of_topic",
     "list_topics",
     "new_bag",
     "new_directory",
@@ -37,6 +36,7 @@ __all__ = [
     "read_arrivals",
     "read_bag",
     "read_logged",
+    "topics_of_foot",
     "write_bag",
     "write_text",
 ]

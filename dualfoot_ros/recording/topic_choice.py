@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,7 +12,10 @@ from .open_bag import list_topics
 from .storage.bag_source import TopicInfo
 from .topics import IMU_TYPE, VECTOR_TYPE, FootTopics, Topics
 
-WORDS = {"left": ("left", "lft", "lh", "lf", "l"), "right": ("right", "rgt", "rh", "rf", "r")}
+WORDS = {"left": ("left", "lft", "lf", "l"), "right": ("right", "rgt", "rf", "r")}
+FOOT = re.compile(r"foot|feet|shoe|toe|heel|instep|ankle|boot")
+PARTS = "hand|arm|forearm|wrist|elbow|wheel|thigh|shank|shin|knee|hip|head|ear|eye|motor"
+ELSEWHERE = re.compile(rf"(left|right|l|r)?({PARTS})")
 FORCE = re.compile(r"acc|specific_?force", re.IGNORECASE)
 NO_FORCE = re.compile(r"free|linear", re.IGNORECASE)  # gravity is taken out
 RATE = re.compile(r"gyr|angular|omega|rate_of_turn", re.IGNORECASE)
@@ -81,8 +84,10 @@ def named_topics(name: str, usual: FootTopics) -> FootTopics:
 
 
 def foot_of_topic(topic: str) -> str | None:
-    """Return which foot the name of a topic speaks of; None for neither, or for both."""
+    """Return which foot the name of a topic speaks of; None for neither, both, or a hand."""
     words = {word.rstrip("0123456789") for word in re.split(r"[^a-z0-9]+", _words(topic))}
+    if any(ELSEWHERE.fullmatch(word) for word in words):
+        return None
     feet = [
         foot
         for foot, names in WORDS.items()
@@ -91,13 +96,19 @@ def foot_of_topic(topic: str) -> str | None:
     return feet[0] if len(feet) == 1 else None
 
 
+def topics_of_foot(foot: str, topics: Iterable[str]) -> list[str]:
+    """Return the topics whose names say ``foot``; where some say shoe or the like, only these."""
+    own = sorted(topic for topic in topics if foot_of_topic(topic) == foot)
+    return [topic for topic in own if FOOT.search(_words(topic))] or own
+
+
 def _words(topic: str) -> str:
     """Return the name in lower case, with an underscore where camel case begins a word."""
     return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", topic).lower()
 
 
 def _by_name(foot: str, usual: FootTopics, present: Mapping[str, TopicInfo]) -> FootTopics:
-    own = {topic: info for topic, info in present.items() if foot_of_topic(topic) == foot}
+    own = {topic: present[topic] for topic in topics_of_foot(foot, present)}
     whole = [t for t, info in own.items() if info.msgtype == IMU_TYPE and not _is_half(t, own)]
     candidates = [replace(usual, imu=topic) for topic in sorted(whole)]
     candidates = candidates or [replace(usual, imu=r, force=f) for f, r in _pairs(own)]

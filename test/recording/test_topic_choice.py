@@ -29,6 +29,10 @@ def bag(*imu, vector=()):
         ("/left/right_imu", None),
         ("/camera/imu_color", None),
         ("/rtk/imu", None),
+        ("/left_hand/imu", None),
+        ("/right_wheel/imu", None),
+        ("/lefthand/imu", None),
+        ("/imu_left/header_linear", "left"),
     ],
 )
 def test_a_name_says_a_foot_by_a_word_of_its_own(topic, foot):
@@ -82,3 +86,9 @@ def test_a_pair_is_named_with_a_comma_and_three_are_refused():
     assert (choice.topics.left.force, choice.topics.left.imu) == ("/a", "/g")
     with pytest.raises(RecordingError, match="ACCELEROMETER,GYRO"):
         choose_topics({}, {"left": "/a,/b,/c", "right": None})
+
+
+def test_a_name_that_says_foot_wins_over_one_that_only_says_the_side():
+    choice = choose_topics(bag("/left/imu", "/left_foot/imu", "/rightShoe/imu"), NOTHING)
+    assert choice.topics.left.imu == "/left_foot/imu"
+    assert choice.topics.right.imu == "/rightShoe/imu"

@@ -8,7 +8,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
 from ...core import FEET
-from ...recording import IMU_TYPE, foot_of_topic
+from ...recording import IMU_TYPE, topics_of_foot
 from ..ros.watched_input import WatchedInput
 
 LOOK_EVERY = 0.5  # s
@@ -62,7 +62,7 @@ class TopicSearch:
 
     def _search(self) -> None:
         seen = self._list_topics()
-        found = {foot: [t for t in seen if foot_of_topic(t) == foot] for foot in self._open}
+        found = {foot: topics_of_foot(foot, seen) for foot in self._open}
         if all(len(topics) == 1 for topics in found.values()):
             self._take({foot: topics[0] for foot, topics in found.items()})
         elif seen and seen != self._listed:

@@ -1,11 +1,14 @@
 """imu_adapter says once, within seconds, what arrives and what to change."""
 
+import socket
+
 import numpy as np
 import pytest
 from drivers.frames import stream, vectornav_ascii
 from sensor_msgs.msg import Imu
 
-from dualfoot_ros.drivers import SourceError
+from dualfoot_ros.drivers import SourceError, State
+from dualfoot_ros.inspection import FindingKind
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.ros import qos
 
@@ -65,6 +68,22 @@ def test_nothing_is_said_before_there_are_samples(bench):
     node = bench.add(ImuAdapterNode, {"source": "topic:///imu_a"}, namespace="left")
     node.first_seconds.report()
     assert node.first_seconds.said == []
+
+
+def test_a_device_taken_for_another_format_is_recognised_in_diagnostics(bench, clock):
+    source = "udp://127.0.0.1:0?format=vectornav"
+    node = bench.add(ImuAdapterNode, {"source": source}, namespace="left")
+    device = node.device
+    bench.until(lambda: device.source.state is State.CONNECTED, "the port")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
+        for k in range(0, 40, 4):
+            data = stream("witmotion", 4, first=k)
+            out.sendto(data, ("127.0.0.1", device.source.transport.port))
+    bench.until(lambda: device.source.decoder.counters["bytes"] == 40 * 33, "all bytes")
+    clock.move_on(5.0)
+    complaint = device.complaint()
+    assert complaint.kind is FindingKind.NO_FRAMES
+    assert "the bytes are of the format 'witmotion'" in complaint.text
 
 
 def test_a_capture_taken_for_another_format_is_recognised(bench, tmp_path):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import FloatArray, ImuSeries
+from ..core import FloatArray, ImuSeries, IntArray
 from ..timing import AlignerConfig, clean
 from .standstill import Stand, first_stand
 from .stuck_values import Stuck, find_stuck
@@ -34,6 +34,8 @@ class Quality:
     peak_force, peak_rate : greatest absolute value of an axis
     clipped_force, clipped_rate : samples at the end of the range
     stuck : axes, or the whole sensor, that repeat their values
+    off_grid_s : s, 95 % of the intervals differ from a multiple of the median by less; lost
+        samples leave multiples, times of arrival do not
     """
 
     samples: int
@@ -57,6 +59,7 @@ class Quality:
     clipped_force: int
     clipped_rate: int
     stuck: tuple[Stuck, ...] = ()
+    off_grid_s: float = 0.0
 
     @property
     def duration_s(self) -> float:
@@ -96,7 +99,17 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
         clipped_force=clipped(good.specific_force, CLIP_FORCE),
         clipped_rate=clipped(good.angular_rate, CLIP_RATE),
         stuck=find_stuck(good),
+        off_grid_s=_off_grid(regular) * 1e-9,
     )
+
+
+def _off_grid(steps: IntArray) -> float:
+    """Return by how much 95 % of the intervals (N,) miss multiples of the median at most, ns."""
+    median = float(np.median(steps)) if len(steps) else 0.0
+    if median <= 0.0:
+        return 0.0
+    multiples = np.maximum(1.0, np.rint(steps / median))
+    return float(np.quantile(np.abs(steps - multiples * median), 0.95))
 
 
 def clipped(values: FloatArray, least: float) -> int:

@@ -122,3 +122,12 @@ def test_jitter_is_the_spread_of_the_intervals():
     late = np.random.default_rng(0).integers(0, 2_000_000, len(series))
     quality = quality_of(replace(series, stamp_ns=series.stamp_ns + late))
     assert 1e-3 < quality.jitter_s < 2.1e-3
+
+
+def test_lost_samples_are_no_jitter_and_times_of_arrival_are():
+    rng = np.random.default_rng(4)
+    whole = moving(1)
+    lossy = whole[rng.random(len(whole)) > 0.12]
+    late = replace(whole, stamp_ns=whole.stamp_ns + rng.exponential(5e6, len(whole)).astype(int))
+    for series, jitters in ((whole, False), (lossy, False), (late, True)):
+        assert ("jitter" in named(of(series))) is jitters

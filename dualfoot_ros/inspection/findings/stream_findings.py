@@ -13,6 +13,7 @@ STUCK_SHARE = 0.1  # of the samples; with more, the recording is of no use
 LATE_STANDSTILL_S = 5.0
 EQUAL_SHARE = 0.2  # of the samples; with more, the recording is of no use
 JITTER_SHARE = 0.3  # of the sampling interval
+OFF_GRID_SHARE = 0.15  # of it; lost samples alone leave intervals that are multiples
 EVEN_THEM = "even the stamps out with 'dualfoot import BAG --stamps index -o NEW'"
 
 
@@ -98,7 +99,8 @@ def find_equal_stamps(foot: str, quality: Quality) -> Iterator[Finding]:
 
 def find_jitter(foot: str, quality: Quality) -> Iterator[Finding]:
     """Yield a finding when the intervals vary so much that stamps are times of arrival."""
-    if quality.jitter_s * quality.rate_hz > JITTER_SHARE:
+    off_grid = quality.off_grid_s * quality.rate_hz > OFF_GRID_SHARE
+    if off_grid and quality.jitter_s * quality.rate_hz > JITTER_SHARE:
         yield Finding(
             FindingKind.JITTER,
             Severity.WARNING,

@@ -9,7 +9,7 @@ from dualfoot_ros.cli.main import main
 
 BAGS = {
     "demo": "--route figure_eight --laps 2 --stops 3 --rate 100 --seed 3 --grade consumer "
-    "--errors independent --truth-rate 25 --set right_clock.phase=0.4",
+    "--errors independent --truth-rate 25 --set right_clock.phase=0.4 --set gait.coning=0",
 }
 
 

@@ -11,6 +11,7 @@ from ..core import (
     FORCE_UNITS,
     FORWARD_LEFT_UP,
     RATE_UNITS,
+    Increments,
     PressureSeries,
     RecordingError,
 )
@@ -73,6 +74,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=0.0,
         metavar="S",
         help="seconds added to the stamps of the right foot, for devices with different clocks",
+    )
+    parser.add_argument(
+        "--increments",
+        default="auto",
+        choices=["auto", *(kind.value for kind in Increments)],
+        help="what the samples are, see docs/explanation/samples.md (default: as the source says)",
     )
     parser.add_argument(
         "--field-scale",
@@ -178,6 +185,7 @@ def _options(args: argparse.Namespace) -> ImportOptions:
         axes=args.axes,
         right_offset_s=args.right_offset,
         field_scale=args.field_scale,
+        increments=args.increments,
         left_topic=args.left_topic,
         right_topic=args.right_topic,
         force_unit=args.force_unit,

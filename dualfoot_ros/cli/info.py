@@ -89,6 +89,9 @@ def _facts(contents: Contents) -> dict[str, Any]:
 
     recording = contents.recording
     feet: dict[str, Any] = {foot: asdict(q) for foot, q in contents.qualities.items()}
+    for foot, facts in feet.items():
+        imu = recording.imu(foot)
+        facts["increments"] = None if imu is None else imu.increments
     for foot, stances in contents.stances.items():
         feet[foot]["stances"] = asdict(stances)
     truths = {foot: recording.truth(foot) for foot in FEET}

@@ -70,7 +70,8 @@ def _feet(contents: Contents) -> Iterator[str]:
     qualities = contents.qualities
     for foot, quality in qualities.items():
         yield f"{foot} foot"
-        for line in (*_stream(quality), *_standstill(quality)):
+        kind = _kind(contents.recording, foot)
+        for line in (*_stream(quality), kind, *_standstill(quality)):
             yield f"  {line}"
         if foot in contents.stances:
             yield f"  {_stances(contents.stances[foot])}"
@@ -90,6 +91,16 @@ def _stream(q: Quality) -> Iterator[str]:
     yield (
         f"greatest values {q.peak_force:.1f} m/s^2 and {q.peak_rate:.2f} rad/s; clipped: "
         f"{q.clipped_force} and {q.clipped_rate} samples"
+    )
+
+
+def _kind(recording: Recording, foot: str) -> str:
+    imu = recording.imu(foot)
+    if imu is not None and imu.increments is not None:
+        return f"samples are {imu.increments.words} ({imu.increments}), as the recording says"
+    return (
+        "nothing says what the samples are: taken for averaged, means over their interval "
+        f"(--set increments.{foot}=compensated or sampled otherwise)"
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from ..core import Increments
 from .arguments import (
     add_bag_output_argument,
     add_json_argument,
@@ -29,6 +30,7 @@ examples:
   dualfoot simulate -o heels --mounting heel --set gait.min_distance=0.25
   dualfoot simulate -o clocks --set right_clock.offset=12.5 --set right_clock.drift=40
   dualfoot simulate -o board --route L --one-shoe 0.014     two sensors on the right shoe
+  dualfoot simulate -o dots --rate 60 --increments compensated   as Xsens DOT send them
   dualfoot simulate -o climb --route stairs --barometer     air pressure too
   dualfoot simulate -o lap --route track --magnetometer     magnetic field too
   dualfoot simulate --list                                  routes, mountings, grades, parameters
@@ -63,6 +65,11 @@ def _add_sensor(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--rate", type=float, metavar="HZ", help="60 to 400 (default: 100)")
     group.add_argument("--mounting", metavar="M", help="instep or heel (default: instep)")
     group.add_argument("--grade", default="consumer", help="quality (default: %(default)s)")
+    group.add_argument(
+        "--increments",
+        choices=[kind.value for kind in Increments],
+        help="what the samples are (default: averaged)",
+    )
     group.add_argument(
         "--errors",
         choices=("independent", "mirrored"),
@@ -135,7 +142,8 @@ def _recording(simulation: Simulation, args: argparse.Namespace) -> Recording:
     notes = {
         "source": "dualfoot simulate",
         "route": f"{config.route}, {config.laps} x, seed {args.seed}",
-        "sensors": f"{args.grade}, {args.errors} errors, {config.mounting}, {config.rate:g} Hz",
+        "sensors": f"{args.grade}, {args.errors} errors, {config.mounting}, "
+        f"{config.rate:g} Hz, {simulation.left.increments}",
         "min_distance_m": f"{config.min_distance:g}",
     }
     step = 1 if args.truth_rate is None else max(1, round(config.rate / args.truth_rate))

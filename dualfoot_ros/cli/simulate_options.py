@@ -44,7 +44,10 @@ def configurations(
     for name, values in groups.items():
         if not isinstance(values, Mapping):
             raise ConfigError(f"parameter '{name}' is a group; name one of its own, see --list")
-    sensor = {**asdict(grade(args.grade, args.errors)), **groups["sensor"]}
+    sensor = asdict(grade(args.grade, args.errors))
+    if args.increments is not None:
+        sensor["increments"] = args.increments
+    sensor |= groups["sensor"]
     return (
         WalkConfig.from_mapping({**walk, "gait": groups["gait"]}),
         SensorConfig.from_mapping(sensor, "sensor."),

@@ -2,7 +2,7 @@
 
 from .alignment import stillness
 from .config import GROUPS, TrackerConfig, all_specs, method_parameters, nested
-from .config_groups import AlignmentConfig, NoiseConfig
+from .config_groups import AlignmentConfig, IncrementsConfig, NoiseConfig
 from .constraints import METHODS
 from .errors import (
     AlignmentError,
@@ -39,6 +39,7 @@ from .rotation import (
     turn_quaternions,
     yaw_quaternion,
 )
+from .samples.increments import Increments
 from .samples.mounting import (
     FORWARD_LEFT_UP,
     IDENTITY,
@@ -92,6 +93,8 @@ __all__ = [
     "FootTrajectory",
     "ImuPair",
     "ImuSeries",
+    "Increments",
+    "IncrementsConfig",
     "IntArray",
     "Matrix",
     "MountingConfig",

@@ -10,6 +10,7 @@ from .config_groups import (
     AidsConfig,
     AlignmentConfig,
     HeadingConfig,
+    IncrementsConfig,
     InitialConfig,
     NoiseConfig,
     StanceConfig,
@@ -21,6 +22,7 @@ from .parameters import Parameters, ParameterSpec, parameter
 from .samples.units import STANDARD_GRAVITY
 
 GROUPS: dict[str, type[Parameters]] = {
+    "increments": IncrementsConfig,
     "alignment": AlignmentConfig,
     "heading": HeadingConfig,
     "noise": NoiseConfig,
@@ -41,6 +43,7 @@ class TrackerConfig(Parameters):
     gravity: float = parameter(
         STANDARD_GRAVITY, "local gravity", unit="m/s^2", minimum=9.7, maximum=9.9
     )
+    increments: IncrementsConfig = field(default_factory=IncrementsConfig)
     alignment: AlignmentConfig = field(default_factory=AlignmentConfig)
     heading: HeadingConfig = field(default_factory=HeadingConfig)
     noise: NoiseConfig = field(default_factory=NoiseConfig)

@@ -6,17 +6,30 @@ from dataclasses import dataclass
 
 from .errors import ConfigError
 from .parameters import Parameters, parameter
+from .samples.increments import Increments
 
 
 @dataclass(frozen=True)
 class AlignmentConfig(Parameters):
-    """Levelling and gyro bias from a standstill that is checked, not assumed."""
+    """Levelling and gyro bias from a standstill, weighed by its stillness; motion is refused."""
 
     duration: float = parameter(
-        2.0, "standstill needed before output starts", unit="s", minimum=0.5, maximum=60.0
+        2.0,
+        "quiet standstill of both feet after which output starts at once",
+        unit="s",
+        minimum=0.5,
+        maximum=60.0,
+    )
+    patience: float = parameter(
+        10.0,
+        "time after the first usable stand, or without one after the first sample, at which "
+        "output starts with what is there",
+        unit="s",
+        minimum=0.0,
+        maximum=600.0,
     )
     window: float = parameter(
-        0.75, "length of the window that is checked", unit="s", minimum=0.1, maximum=5.0
+        0.75, "length of the window that is weighed", unit="s", minimum=0.1, maximum=5.0
     )
     still_rate_std: float = parameter(
         1.0e-3,
@@ -25,15 +38,29 @@ class AlignmentConfig(Parameters):
         minimum=1e-6,
         maximum=1.0,
     )
+    quiet_rate_std: float = parameter(
+        0.03, "angular rate scatter of a quiet window", unit="rad/s", minimum=1e-5, maximum=1.0
+    )
+    quiet_force_std: float = parameter(
+        0.15, "specific force scatter of a quiet window", unit="m/s^2", minimum=1e-4, maximum=5.0
+    )
     max_rate_std: float = parameter(
-        0.03, "angular rate scatter of a still window", unit="rad/s", minimum=1e-5, maximum=1.0
+        0.12,
+        "angular rate scatter above which a window is motion",
+        unit="rad/s",
+        minimum=1e-5,
+        maximum=1.0,
     )
     max_force_std: float = parameter(
-        0.15, "specific force scatter of a still window", unit="m/s^2", minimum=1e-4, maximum=5.0
+        0.6,
+        "specific force scatter above which a window is motion",
+        unit="m/s^2",
+        minimum=1e-4,
+        maximum=5.0,
     )
     max_rate: float = parameter(
         0.15,
-        "mean angular rate (a bias) of a still window",
+        "mean angular rate (a bias) above which a window is motion",
         unit="rad/s",
         minimum=0.0,
         maximum=1.0,
@@ -41,6 +68,35 @@ class AlignmentConfig(Parameters):
     max_gravity_error: float = parameter(
         1.0, "mean specific force may differ from g by", unit="m/s^2", minimum=0.01, maximum=5.0
     )
+
+
+FROM_SOURCE = "from_source"
+KINDS = (FROM_SOURCE, *(kind.value for kind in Increments))
+
+
+@dataclass(frozen=True)
+class IncrementsConfig(Parameters):
+    """What the samples of each foot are; the source says so unless it is given here."""
+
+    left: str = parameter(
+        FROM_SOURCE,
+        "samples of the left foot; from_source: as its recording or driver says, else averaged",
+        choices=KINDS,
+    )
+    right: str = parameter(
+        FROM_SOURCE,
+        "samples of the right foot; from_source: as its recording or driver says, else averaged",
+        choices=KINDS,
+    )
+
+    def of(self, foot: str, source: Increments | None) -> Increments:
+        """Return what the samples of ``foot`` are; ``source`` is what their source says."""
+        given = self.left if foot == "left" else self.right
+        return (source or Increments.AVERAGED) if given == FROM_SOURCE else Increments(given)
+
+    def is_given(self, foot: str) -> bool:
+        """Return whether it is given here for ``foot``, whatever the source says."""
+        return (self.left if foot == "left" else self.right) != FROM_SOURCE
 
 
 @dataclass(frozen=True)
@@ -104,7 +160,7 @@ class InitialConfig(Parameters):
         0.03, "yaw against the first strides", unit="rad", minimum=0.0, maximum=3.2
     )
     gyro_bias: float = parameter(
-        1.0e-4, "gyro bias, the least of it", unit="rad/s", minimum=0.0, maximum=1.0
+        8.0e-4, "lower bound of the gyro bias", unit="rad/s", minimum=0.0, maximum=1.0
     )
     accelerometer_bias: float = parameter(
         0.1, "accelerometer bias", unit="m/s^2", minimum=0.0, maximum=5.0
@@ -119,8 +175,16 @@ class StanceConfig(Parameters):
     """GLRT stance detector (Skog et al. 2010) and the clean-up of impossible phases."""
 
     window: float = parameter(0.05, "GLRT window W", unit="s", minimum=0.005, maximum=0.5)
+    detector: str = parameter(
+        "adaptive",
+        "threshold that follows the walk's own statistic, or fixed as in the papers",
+        choices=("adaptive", "fixed"),
+    )
     threshold: float = parameter(
-        6000.0, "GLRT threshold gamma (dimensionless)", minimum=1.0, maximum=1e9
+        6000.0,
+        "GLRT threshold gamma (dimensionless); adaptive: that of the first second",
+        minimum=1.0,
+        maximum=1e9,
     )
     gyro_std: float = parameter(
         1.4e-2, "angular rate noise in the GLRT", unit="rad/s", minimum=1e-6, maximum=1.0
@@ -140,13 +204,37 @@ class StanceConfig(Parameters):
 class ZuptConfig(Parameters):
     """Zero-velocity update, eq. (12), at the point about which the foot pivots."""
 
-    std: float = parameter(0.05, "velocity noise in stance", unit="m/s", minimum=1e-4, maximum=1.0)
+    std: float = parameter(
+        0.087, "velocity noise in stance", unit="m/s", minimum=1e-4, maximum=1.0
+    )
     rate_std: float = parameter(
-        0.05,
+        0.12,
         "velocity noise added per angular rate",
         unit="m/s per rad/s",
         minimum=0.0,
         maximum=1.0,
+    )
+    std_rate: float = parameter(
+        60.0,
+        "sampling rate for which std and rate_std hold: the variance of a sample grows with the "
+        "rate (0: the same at every rate, as in the papers)",
+        unit="Hz",
+        minimum=0.0,
+        maximum=5000.0,
+    )
+    heading_correction: str = parameter(
+        "none",
+        "what a zero-velocity update corrects of heading and gyro bias: all (full), as in the "
+        "papers, or nothing (none): they are taken as known, and their uncertainty is carried",
+        choices=("full", "none"),
+    )
+    bias_known: float = parameter(
+        7.0e-3,
+        "uncertainty of a gyro bias above which zero-velocity updates correct heading and bias "
+        "all the same: they tell a bias to about this",
+        unit="rad/s",
+        minimum=0.0,
+        maximum=10.0,
     )
     still_std: float = parameter(
         0.002, "velocity noise standing still", unit="m/s", minimum=1e-5, maximum=1.0
@@ -155,14 +243,14 @@ class ZuptConfig(Parameters):
         1.5, "a stance this long is standing still", unit="s", minimum=0.2, maximum=1e6
     )
     lever_arm: float = parameter(
-        0.09,
+        0.10,
         "height of the sensor above the pivot of the foot (0: the papers' plain ZUPT)",
         unit="m",
         minimum=0.0,
         maximum=0.5,
     )
     lever_back: float = parameter(
-        0.08,
+        0.06,
         "how far the pivot is behind the sensor, along the foot",
         unit="m",
         minimum=-0.3,

@@ -11,20 +11,39 @@ from .alignment import FootStandstill
 from .config import TrackerConfig
 from .kernel import Workspace
 from .kernel import layout as lay
+from .results.events import FEET
 from .rotation import about_z
+from .samples.increments import Increments
 from .samples.series import FloatArray
 
+KINDS = {
+    Increments.COMPENSATED: lay.COMPENSATED,
+    Increments.AVERAGED: lay.AVERAGED,
+    Increments.SAMPLED: lay.SAMPLED,
+}
 LEVEL_NOISE = 1e-3  # m/s^2, the least by which gravity in the levelled frame is off
+MOVING_STD = 2.0  # m/s, velocity of a foot that may be swinging at the start
 
 
 class InitialState:
     """Fills a workspace from a configuration and a standstill."""
 
-    def __init__(self, config: TrackerConfig, space: Workspace) -> None:
-        """Write the constants of ``config`` to ``space``."""
+    def __init__(
+        self,
+        config: TrackerConfig,
+        space: Workspace,
+        sources: Sequence[Increments | None] = (None, None),
+    ) -> None:
+        """Write the constants of ``config`` to ``space``.
+
+        ``sources`` is what the sources of the left and the right foot say that their samples are.
+        """
         self._config, self._space = config, space
         self._up = [np.array([0.0, 0.0, 1.0])] * 2  # in body axes
         self._set_constants()
+        for foot, source in enumerate(sources):
+            kind = config.increments.of(FEET[foot], source)
+            space.w[lay.C_FOOT + foot * lay.C_STRIDE + lay.C_INCREMENTS] = KINDS[kind]
 
     def _set_constants(self) -> None:
         config, space = self._config, self._space
@@ -35,13 +54,23 @@ class InitialState:
         w[lay.C_Q_BG] = noise.gyro_bias**2
         w[lay.C_Q_BA] = noise.accelerometer_bias**2
         w[lay.C_BIAS_RATE] = 1.0 / noise.bias_time
-        w[lay.C_ZUPT_VAR] = config.zupt.std**2
+        growth = space.rate_hz / config.zupt.std_rate if config.zupt.std_rate > 0.0 else 1.0
+        w[lay.C_ZUPT_VAR] = config.zupt.std**2 * growth
+        w[lay.C_ZUPT_CONSIDERS] = 1.0 if config.zupt.heading_correction == "none" else 0.0
         w[lay.C_ZUPT_STILL_VAR] = config.zupt.still_std**2
-        w[lay.C_ZUPT_RATE_VAR] = config.zupt.rate_std**2
+        w[lay.C_BIAS_KNOWN_VAR] = config.zupt.bias_known**2
+        w[lay.C_ZUPT_RATE_VAR] = config.zupt.rate_std**2 * growth
         w[lay.C_GLRT_FORCE] = 1.0 / stance.force_std**2
         w[lay.C_GLRT_RATE] = 1.0 / stance.gyro_std**2
         w[lay.C_GLRT_THRESHOLD] = stance.threshold
         w[lay.C_WATCH] = math.inf
+        w[lay.C_ADAPTS] = 1.0 if stance.detector == "adaptive" else 0.0
+        w[lay.D_EDGES : lay.D_EDGES + lay.BINS] = 10.0 ** (0.05 * np.arange(20, 20 + lay.BINS))
+        for foot in range(2):
+            w[lay.D_FOOT + foot * lay.D_STRIDE + lay.D_THRESHOLD] = stance.threshold
+        n[lay.N_SHORT_STANCE] = max(1, round(0.05 * space.rate_hz))
+        n[lay.N_DECIMATE] = max(1, round(space.rate_hz / 60.0))
+        n[lay.N_WALKING] = round(2.0 * space.rate_hz)
         n[lay.N_WINDOW] = min(space.ring, max(2, round(stance.window * space.rate_hz)))
         n[lay.N_STILL] = max(1, round(config.zupt.still_after * space.rate_hz))
         n[lay.N_MIN_STANCE] = max(1, round(stance.min_stance * space.rate_hz))
@@ -87,11 +116,12 @@ class InitialState:
 
     def _set_covariance(self, foot: int, still: FootStandstill, rotation: FloatArray) -> None:
         p0 = self._config.initial
-        stds = [p0.position] * 3 + [p0.velocity] * 3 + [p0.tilt, p0.tilt, p0.yaw]
-        stds += [max(p0.gyro_bias, still.rate_scatter)] * 3 + [p0.accelerometer_bias] * 3
+        velocity = MOVING_STD if still.moving else p0.velocity
+        stds = [p0.position] * 3 + [velocity] * 3 + [p0.tilt, p0.tilt, p0.yaw]
+        stds += [max(p0.gyro_bias, still.rate_std)] * 3 + [p0.accelerometer_bias] * 3
         rows = self._space.own_block(foot)
         np.fill_diagonal(rows, np.square(stds))
-        know_level(rows, rotation, self._config.gravity, max(LEVEL_NOISE, still.force_scatter))
+        know_level(rows, rotation, self._config.gravity, max(LEVEL_NOISE, still.force_std))
 
 
 def know_level(rows: FloatArray, rotation: FloatArray, gravity: float, std: float) -> None:

@@ -23,6 +23,31 @@ Row = Mapping[int, float]
 ROUNDING = 1e-13  # relative size below which a variance is a rounding error
 
 
+class HeadingCorrection(StrEnum):
+    """What an update may correct of the headings and the gyro biases of the feet.
+
+    Attributes
+    ----------
+    FULL : all that the Kalman gain says, as in the papers
+    DIFFERENCE : the difference of the headings; what they have in common and the gyro biases are
+        taken as known, and their uncertainty is carried
+    NONE : nothing; all of them are taken as known, and their uncertainty is carried
+    BIAS : the gyro biases, but neither headings nor positions
+    """
+
+    FULL = "full"
+    DIFFERENCE = "difference"
+    NONE = "none"
+    BIAS = "bias"
+
+
+LEFT_ALONE = {
+    HeadingCorrection.DIFFERENCE: lay.KNOW_COMMON,
+    HeadingCorrection.NONE: lay.KNOW_ALL,
+    HeadingCorrection.BIAS: lay.KEEP_PLACE,
+}
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What came of a constraint: as in :class:`dualfoot_ros.core.Event`."""
@@ -67,6 +92,21 @@ class JointEstimate:
         start = foot * lay.FOOT + lay.VEL
         return self._space.w[start : start + 3].copy()
 
+    def gyro_bias(self, foot: int) -> FloatArray:
+        """Return the gyro bias (3,) rad/s of foot 0 or 1."""
+        start = foot * lay.FOOT + lay.BG
+        return self._space.w[start : start + 3].copy()
+
+    def keep_gyro_bias_std(self, foot: int, least: float) -> None:
+        """Let no gyro bias of foot 0 or 1 be known better than to ``least`` rad/s.
+
+        What the model leaves out (scale factor, misalignment) acts like a bias while walking and
+        is not learnt while standing.
+        """
+        rows = self._space.own_block(foot)
+        for i in range(lay.E_BG, lay.E_BG + 3):
+            rows[i, i] = max(rows[i, i], least**2)
+
     def place(self, foot: int, position: FloatArray) -> None:
         """Put foot 0 or 1 at ``position`` (3,) m; nothing else changes."""
         start = foot * lay.FOOT + lay.POS
@@ -107,13 +147,18 @@ class JointEstimate:
         return self._space.w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
 
     def update(
-        self, rows: Sequence[Row], innovation: Sequence[float], variances: Sequence[float]
+        self,
+        rows: Sequence[Row],
+        innovation: Sequence[float],
+        variances: Sequence[float],
+        heading: HeadingCorrection = HeadingCorrection.FULL,
     ) -> tuple[FloatArray, float]:
         """Update with up to three scalar measurements; return (S, NIS).
 
         ``innovation`` is predicted minus measured (estimate minus truth, as the errors are) and
         ``variances`` the noise of each; zero makes an exact constraint.  A variance H P H' that is
         mere rounding counts as none: what an exact constraint has settled stays settled.
+        ``heading`` is what the update may correct of headings and gyro biases.
         """
         w = self._space.w
         self._collect(rows)
@@ -124,7 +169,9 @@ class JointEstimate:
             w[lay.S_S + 4 * i] += variances[i]
             w[lay.S_Y + i] = innovation[i]
         s = w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
-        return s, float(self._engine.correct(w, m))
+        if heading is HeadingCorrection.FULL:
+            return s, float(self._engine.correct(w, m))
+        return s, float(self._engine.correct_considering(w, m, LEFT_ALONE[heading]))
 
     def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
         """Update with one measurement whose statistics are known; return the NIS.

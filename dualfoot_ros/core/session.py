@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from .alignment import Standstill
+from .alignment import Alignment, Start
 from .config import TrackerConfig
 from .constraints import METHODS, Method, Request, StancePhase
 from .gait_history import GaitHistory
@@ -22,7 +22,9 @@ from .kernel import layout as lay
 from .results.events import FEET, Event, EventKind
 from .results.payloads import Levelled
 from .roll_back import RollBack
+from .samples.increments import Increments
 from .samples.series import FloatArray, IntArray
+from .standing import Stands
 
 Found = list[Event]
 
@@ -34,25 +36,33 @@ class Session:
         self,
         config: TrackerConfig,
         engine: Engine,
-        still: Standstill,
-        rate_hz: float,
+        start: Start,
+        alignment: Alignment | None = None,
         aids: Sequence[Method] = (),
+        increments: Sequence[Increments | None] = (None, None),
     ) -> None:
-        """Level both feet from ``still``; ``aids`` are asked as the method is."""
+        """Level both feet from ``start``; ``aids`` are asked as the method is.
+
+        ``alignment`` goes on refining a stand; ``increments`` is what the sources of both feet
+        say that their samples are.
+        """
         self._method: Method = METHODS[config.method](config.constraint)
         stance = config.stance
         memory = stance.min_stance + stance.min_swing + stance.window + 0.1
         memory += max(each.memory_s for each in (self._method, *aids))
         self._aids = aids
-        self.rate_hz = rate_hz
-        self.space = Workspace(rate_hz, memory)
-        self._initial = InitialState(config, self.space)
+        self.rate_hz = start.rate_hz
+        self.space = Workspace(start.rate_hz, memory)
+        self._initial = InitialState(config, self.space, increments)
         self.phase = "standing"
+        self._standing_start = [not start.waiting] * 2
         self.headings = Headings(config.heading, self.space, self._initial)
-        self._config, self._still = config, still
+        self._config, self._start, self._alignment = config, start, alignment
+        self._feet = start.feet
         self._origin = np.zeros(3)
         self._gait = GaitHistory(self.space)
         self._roll_back = RollBack(self.space)
+        self._stands = Stands(config, self.space)
         self._dt, self._values = np.empty(1), np.empty((1, 12))
         self._row = np.zeros((1, lay.OUT))
         self.use(engine)
@@ -72,7 +82,7 @@ class Session:
 
     def _level(self) -> None:
         forward = self.headings.forward
-        self._initial.level(self._still.result(), self._origin, forward)
+        self._initial.level(self._feet, self._origin, forward)
         arm = self._method.lever_arm
         if arm is not None:
             self._estimate.place(1, self._second_sensor(arm))
@@ -98,10 +108,12 @@ class Session:
 
     def aligned_event(self, stamp: int) -> Event:
         """Return the event that says what the alignment found."""
-        feet = dict(zip(FEET, self._still.result(), strict=True))
+        feet = dict(zip(FEET, self._feet, strict=True))
         levelled = Levelled(
+            str(self._start.kind),
             {name: still.angular_rate.tolist() for name, still in feet.items()},
             {name: float(np.linalg.norm(still.specific_force)) for name, still in feet.items()},
+            max(still.rate_std for still in feet.values()),
         )
         return Event(EventKind.ALIGNED, stamp, "both", stamp, payload=levelled)
 
@@ -109,8 +121,8 @@ class Session:
 
     def step(self, stamp: int, dt_s: float, values: FloatArray) -> tuple[FloatArray, Found]:
         """Run one epoch; return its output row (OUT,) and the events it brought."""
-        if self.phase == "standing" and self._still.add(values, restart=False):
-            self._level()
+        if self.phase == "standing":
+            self._refine(stamp, values)
         space, n = self.space, self.space.n
         self._dt[0] = dt_s
         self._values[0] = values
@@ -121,6 +133,13 @@ class Session:
             found = self._attend()
             self._engine.emit(space.w, n, self._row, 0)
         return self._row[0].copy(), found
+
+    def _refine(self, stamp: int, values: FloatArray) -> None:
+        """Level anew when the stand has gone on for a window's length more."""
+        alignment = self._alignment
+        if alignment is not None and alignment.refine(stamp, values):
+            self._feet = alignment.result()
+            self._level()
 
     def steps(
         self,
@@ -158,6 +177,8 @@ class Session:
         self._roll_back.clean_phases(bits)
         found: Found = []
         for foot in range(2):
+            if notices & (lay.NOTICE_STOOD << foot):
+                self._stands.take(foot, self._gait.stamp(self.space.epoch))
             if bits[foot] & lay.STANCE_CONFIRMED:
                 found += self._stance_confirmed(foot)
             elif bits[foot] & lay.STANCE_ENDED:
@@ -199,10 +220,31 @@ class Session:
         found = [Event(EventKind.STANCE_END, self._gait.stamp(last, now), FEET[foot], now)]
         self.phase = "walking"
         self._gait.ended[foot] = last
+        found += self._learn_bias(foot, now)
         phase = self._phase(foot, last)
         for method in self._askable():
             found += self._constrain(FEET[foot], method, method.on_stance_end(phase, self._gait))
         return found
+
+    def _learn_bias(self, foot: int, now: int) -> Found:
+        """Learn the gyro bias from the stand that has ended, unless it was that of the start."""
+        if self._standing_start[foot] or not self._stands.stood(foot):
+            self._standing_start[foot] = False
+            self._stands.forget(foot)
+            return []
+        return [self._stood_event(foot, now, self._stands.learn(foot, self._estimate))]
+
+    def _stood_event(self, foot: int, now: int, outcome: Outcome) -> Event:
+        return Event(
+            EventKind.STOOD,
+            now,
+            FEET[foot],
+            now,
+            outcome.innovation,
+            outcome.S,
+            outcome.nis,
+            payload=outcome.payload,
+        )
 
     def _constrain(self, foot: str, method: Method, requests: Sequence[Request]) -> Found:
         """Apply what a method asked for, and tell it and the caller what came of it."""

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from .aids import AidInputs
-from .alignment import FirstPairs
+from .alignment import Alignment, BiasPrior, Start
 from .compiler import BackgroundEngine, compiled
 from .config import TrackerConfig
 from .errors import AlignmentError, ConfigError
@@ -20,8 +20,10 @@ from .results.payloads import Reason
 from .results.rows import to_trajectory, turn_rows
 from .results.trajectory import Trajectory
 from .results.update import Update
+from .samples.increments import Increments
 from .samples.pair_gate import MAX_GAP_NS, TIME_JUMPED, PairGate, next_irregular, regular_samples
 from .samples.series import (
+    BoolArray,
     FieldSeries,
     FloatArray,
     ImuPair,
@@ -57,10 +59,12 @@ class DualFootTracker:
         self._engine = compiled() if engine == "compiled" else interpreted()
         self._pose: tuple[FloatArray, float] | None = None
         self._inputs = AidInputs(self.config.aids, self.counters)
+        self._increments: dict[str, Increments | None] = dict.fromkeys(FEET)
+        self._priors: dict[str, BiasPrior] = {}
         self._begin()
 
     def _begin(self) -> None:
-        self._first_pairs = FirstPairs(self.config)
+        self._alignment = Alignment(self.config, self._priors)
         self._session: Session | None = None
         self._gate = PairGate()
         self._pending: list[Event] = []
@@ -84,7 +88,7 @@ class DualFootTracker:
     @property
     def complaint(self) -> str | None:
         """Why the last window of the alignment was no standstill, if it was not."""
-        return self._first_pairs.complaint
+        return self._alignment.complaint
 
     def reset(self, stamp_ns: int | None = None, reason: Reason = Reason.ASKED_FOR) -> None:
         """Forget everything but the counters and align anew."""
@@ -125,9 +129,26 @@ class DualFootTracker:
             self._poll_engine()
         dt_ns = self._gate.step(stamp)
         if self._session is None:
-            self._align(stamp, values)
-            return Update(stamp, "aligning", events=self._take_pending())
+            return self._align(stamp, values)
         return self._track(self._session, stamp, dt_ns, values)
+
+    def declare_increments(self, foot: str, kind: Increments | None) -> None:
+        """Take note what the samples of "left" or "right" are, as their source says.
+
+        It holds from the next alignment on; ``increments`` in the configuration wins over it.
+        """
+        self._increments[foot] = kind
+
+    def declare_bias(self, foot: str, prior: BiasPrior | None) -> None:
+        """Take what is known of the gyro bias of "left" or "right" before the walk.
+
+        It holds from the next alignment on.
+        """
+        self._priors.pop(foot, None)
+        if prior is not None:
+            self._priors[foot] = prior
+        if self._session is None:
+            self._alignment = Alignment(self.config, self._priors)
 
     def add_pressure(self, worn: str, stamp_ns: int, pascal: float) -> str | None:
         """Take air pressure (Pa) of a sensor worn on "left" or "right", or on the body for "both".
@@ -175,16 +196,33 @@ class DualFootTracker:
         events, self._pending = tuple(self._pending), []
         return events
 
-    def _align(self, stamp: int, values: FloatArray) -> None:
-        first_pairs = self._first_pairs
-        still = first_pairs.add(stamp, values)
-        if first_pairs.still is not None:
-            self.counters["alignment_restarts"] = first_pairs.still.restarts
-        if still is not None:
-            self._session = Session(
-                self.config, self._engine, still, first_pairs.rate_hz, self._aids
-            )
-            self._pending.append(self._session.aligned_event(stamp))
+    def _align(self, stamp: int, values: FloatArray) -> Update:
+        """Look for a start; where pairs have waited for it, run them first."""
+        start = self._alignment.add(stamp, values)
+        self.counters["alignment_restarts"] = self._alignment.restarts
+        if start is None:
+            return Update(stamp, "aligning", events=self._take_pending())
+        session = self._begin_session(start)
+        self._pending.append(session.aligned_event(stamp))
+        if not start.waiting:
+            return Update(stamp, "aligning", events=self._take_pending())
+        return self._catch_up(session, start)
+
+    def _begin_session(self, start: Start) -> Session:
+        kinds = [self._increments[foot] for foot in FEET]
+        refining = None if start.waiting else self._alignment
+        session = Session(self.config, self._engine, start, refining, self._aids, kinds)
+        self._session = session
+        return session
+
+    def _catch_up(self, session: Session, start: Start) -> Update:
+        """Run the pairs that have waited; return the update of the newest, with those before."""
+        before: list[Update] = []
+        last_ns = max(foot.end_ns for foot in start.feet)
+        for stamp, values in start.waiting:
+            before.append(self._track(session, stamp, stamp - last_ns, values))
+            last_ns = stamp
+        return before[-1].after(before[:-1])
 
     def _track(self, session: Session, stamp: int, dt_ns: int, values: FloatArray) -> Update:
         before: tuple[Event, ...] = ()
@@ -235,6 +273,9 @@ class DualFootTracker:
             When ``pressure`` or ``fields`` has another key.
         """
         values = stack_pairs(left, right)
+        for foot, imu in zip(FEET, (left, right), strict=True):
+            if imu.increments is not None:
+                self.declare_increments(foot, imu.increments)
         if self._background is not None:
             engine = self._background.wait()
             self._use(engine if engine is not None else self._engine)
@@ -244,17 +285,25 @@ class DualFootTracker:
         for foot, field in (fields_of(left, right) if fields is None else fields).items():
             self._inputs.take_fields(foot, field)
         stamps, rows, events = self._run(left.stamp_ns, values)
-        if self._session is None:
-            raise AlignmentError(self._no_standstill(left))
+        if not len(stamps):
+            raise AlignmentError(self._no_start(left))
         return to_trajectory(stamps, rows, tuple(events), self.counters, self.config.method)
 
-    def _no_standstill(self, left: ImuSeries) -> str:
-        need = self.config.alignment.duration
+    def _no_start(self, left: ImuSeries) -> str:
         seen = self.complaint or f"the recording is {left.duration_s:.1f} s long"
         return (
-            f"no standstill of {need:g} s of both feet found ({seen}); stand still with both feet "
-            "on the ground at the start, or change alignment.* if the sensors are noisier"
+            f"neither a standstill of both feet nor a stance of each was found ({seen}); stand "
+            "still with both feet on the ground at the start, and check units and axes"
         )
+
+    def _start_late(self, stamp_ns: int) -> Update | None:
+        """Start from what is there when no pair follows that of ``stamp_ns``."""
+        start = self._alignment.finish() if self._session is None else None
+        if start is None or not start.waiting:
+            return None
+        session = self._begin_session(start)
+        self._pending.append(session.aligned_event(stamp_ns))
+        return self._catch_up(session, start)
 
     def _run(
         self, stamps: IntArray, values: FloatArray
@@ -266,6 +315,7 @@ class DualFootTracker:
         dts = np.diff(stamps, prepend=stamps[:1]) * 1e-9
         stops = next_irregular(regular_samples(stamps, values))
         events: list[Event] = []
+        taken: list[int] = []
         k = 0
         while k < count:
             session = self._session
@@ -279,23 +329,45 @@ class DualFootTracker:
                 k = stop
                 continue
             update = self.add(ImuPair(int(stamps[k]), values[k]))
+            if update.refused is None:
+                taken.append(k)
             if any(event.kind is EventKind.RESET for event in update.announced):
-                kept[:k] = False
+                kept[:k], taken = False, taken[-1:]
                 events.clear()
-            if update.row is not None:
-                out[k], kept[k] = update.row, True
-            _note(out, k, update.announced, events)
+            _keep(update, taken, out, kept, events)
             k += 1
-        first = int(np.argmax(kept)) if kept.any() else count
-        if kept[first:].all():
-            return stamps[first:], out[first:], events
-        return stamps[kept], out[kept], events
+        if taken and (late := self._start_late(int(stamps[taken[-1]]))) is not None:
+            _keep(late, taken, out, kept, events)
+        return *_only(kept, stamps, out), events
 
 
 def fields_of(left: ImuSeries, right: ImuSeries) -> dict[str, FieldSeries]:
     """Return the magnetic field of the feet that have one."""
     found = zip(FEET, (left.field, right.field), strict=True)
     return {foot: field for foot, field in found if field is not None and len(field)}
+
+
+def _only(kept: BoolArray, stamps: IntArray, out: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Return the rows that are kept, without a copy where they are all from some row on."""
+    first = int(np.argmax(kept)) if kept.any() else len(kept)
+    if kept[first:].all():
+        return stamps[first:], out[first:]
+    return stamps[kept], out[kept]
+
+
+def _keep(
+    update: Update,
+    taken: Sequence[int],
+    out: FloatArray,
+    kept: BoolArray,
+    events: list[Event],
+) -> None:
+    """Keep an update, and those before it, in the rows of the pairs ``taken`` last."""
+    updates = (*update.earlier, update)
+    for each, row in zip(updates, taken[-len(updates) :], strict=False):
+        if each.row is not None:
+            out[row], kept[row] = each.row, True
+        _note(out, row, each.announced, events)
 
 
 def _note(out: FloatArray, row: int, found: Sequence[Event], events: list[Event]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ..core import Vector
+from ..core import Increments, Vector
 
 
 class Sample(NamedTuple):
@@ -31,6 +31,8 @@ class Sample(NamedTuple):
         The latest the device has sent, where its unit is known.
     counter : int or None
         Raw packet counter as sent.
+    increments : Increments or None
+        What rate and force say about their interval; None when the device does not tell.
     """
 
     arrival_ns: int
@@ -42,6 +44,7 @@ class Sample(NamedTuple):
     temperature: float | None = None
     magnetic_field: Vector | None = None
     counter: int | None = None
+    increments: Increments | None = None
 
 
 def is_finite(*vectors: Vector) -> bool:

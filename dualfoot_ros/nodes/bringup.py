@@ -14,12 +14,14 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.task import Future
 from sensor_msgs.msg import FluidPressure, Imu, MagneticField
+from std_msgs.msg import String
 
 from ..core import FEET, DualFootError
 from ..settings import BringupConfig, node_specs
 from .fusion import FusionNode
 from .imu_adapter import ImuAdapterNode
 from .inputs.field_topics import TOPICS as MAGNETIC
+from .inputs.increments_topics import TOPICS as KINDS
 from .inputs.pressure_topics import TOPICS
 from .replay import ReplayNode
 from .ros import qos
@@ -125,6 +127,7 @@ def _make_recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> R
     topics: dict[str, Any] = {}
     for foot in FEET:
         topics[f"{foot}/imu/data_raw"] = (Imu, qos.sensor(2000))
+        topics[KINDS[foot]] = (String, qos.latched())
         topics[f"{foot}/odometry"] = (Odometry, qos.result(2000))
     if fusion.pressure is not None:
         topics |= {topic: (FluidPressure, qos.sensor(2000)) for topic in TOPICS.values()}

@@ -10,12 +10,13 @@ from rclpy.node import Node
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
-from ..core import FEET, DualFootTracker, FloatArray, ImuPair, TrackerConfig, all_specs
+from ..core import FEET, DualFootTracker, EventKind, FloatArray, ImuPair, TrackerConfig, all_specs
 from ..settings import FrameConfig, FusionConfig, InputConfig, PathConfig, node_specs
 from ..timing import StampConfig
 from .inputs.calibrations import load_for_feet
 from .inputs.field_topics import FieldInput, FieldInputs
 from .inputs.foot_streams import FootStreams
+from .inputs.increments_topics import IncrementsInputs
 from .inputs.pressure_topics import PressureInputs
 from .inputs.unit_check import UnitCheck
 from .results.fusion_report import FusionReport
@@ -70,7 +71,7 @@ class FusionNode(Node):
         self.report = FusionReport(
             self.tracker,
             self.streams.aligner,
-            [self.streams, *self._unit_checks.values()],
+            [self.streams, self.increments, *self._unit_checks.values()],
             self.get_clock(),
             self.get_logger(),
             external=own.sync == "external",
@@ -79,6 +80,10 @@ class FusionNode(Node):
 
     def _listen(self, external: bool, values: dict[str, Any]) -> None:
         """Subscribe to the feet; time_sync has already applied the stamping to external pairs."""
+        tracker = self.tracker
+        self.increments = IncrementsInputs(
+            self, tracker.config.increments, tracker.declare_increments
+        )
         stamping = StampConfig() if external else group(StampConfig, values, "stamping.")
         aids = self._listen_for_aids(stamping, group(InputConfig, values, "input.").depth)
         self.streams = FootStreams(
@@ -128,6 +133,8 @@ class FusionNode(Node):
     def _track(self, pair: ImuPair) -> None:
         update = self.tracker.add(pair)
         self.report.add(update)
+        if any(event.kind is EventKind.ALIGNED for event in update.announced):
+            self.increments.log()
         self.outputs.publish(update)
 
     def _reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:

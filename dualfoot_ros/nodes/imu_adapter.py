@@ -16,6 +16,7 @@ from ..core import (
     FieldSeries,
     FloatArray,
     ImuSeries,
+    Increments,
     MountingConfig,
     Refusal,
     SourceError,
@@ -27,6 +28,7 @@ from ..settings import (
     AdapterConfig,
     CovarianceConfig,
     InputConfig,
+    KindConfig,
     PlayConfig,
     UnitConfig,
     node_specs,
@@ -40,6 +42,7 @@ from .adapter.first_seconds import FirstSeconds
 from .adapter.losses import in_words, select_counts
 from .inputs.calibrations import FOOT_UNKNOWN, find_foot, load_for_sensor
 from .inputs.field_topics import FieldOutput
+from .inputs.increments_topics import IncrementsOutput
 from .inputs.stamper import Stamper
 from .inputs.topic_search import TopicSearch
 from .inputs.unit_check import UnitCheck
@@ -52,7 +55,7 @@ from .ros.program import Graph, Program, run_nodes
 from .ros.watched_input import InputMonitor, WatchedInput
 from .ros.watched_publisher import watched_publisher
 
-MAG = "imu/mag"
+MAG, INCREMENTS = "imu/mag", "imu/increments"
 CHOOSE = "the parameter source of this imu_adapter, as in topic:///TOPIC"
 PROGRAM = Program(
     "imu_adapter",
@@ -116,17 +119,27 @@ class ImuAdapterNode(Node):
         self.check = SensorCheck(group(CheckConfig, values, "checks."))
         self._unit_check = UnitCheck(self.get_logger().warning)
         self._depth = group(InputConfig, values, "input.").depth
-        self._out = watched_publisher(self, Imu, "imu/data_raw", qos.sensor(self._depth))
-        self._frame_id = self._config.frame_id or f"{self._foot}_imu"
-        self._own_message = new_imu(self._frame_id)
-        self.field: FieldOutput | None = None
         self._added_ns: int | None = None  # by the stamping, to the newest sample of a file
+        self._create_outputs(values)
         source = sources.parse(self._config.source)
         stamping = sources.choose_stamping(source, self._config, self._foot)
         self.stamper = Stamper(stamping, group(DeviceClockConfig, values, "clock."))
         self.first_seconds = FirstSeconds(self, source, self.stamper, lambda: self._input.topic)
         self._open(source, values)
         self._reporter = Reporter(self, values, self._make_report().collect)
+
+    def _create_outputs(self, values: dict[str, Any]) -> None:
+        self._out = watched_publisher(self, Imu, "imu/data_raw", qos.sensor(self._depth))
+        self._frame_id = self._config.frame_id or f"{self._foot}_imu"
+        self._own_message = new_imu(self._frame_id)
+        self.field: FieldOutput | None = None
+        self.increments = IncrementsOutput(self, INCREMENTS)
+        self._given = group(KindConfig, values, "increments.").given
+        self._declare(self._given)
+
+    def _declare(self, kind: Increments | None) -> None:
+        """Publish what the samples are; the parameter wins over the source."""
+        self.increments.declare(self._given or kind)
 
     def _open(self, source: sources.Source, values: dict[str, Any]) -> None:
         config = group(InputConfig, values, "input.")
@@ -160,12 +173,14 @@ class ImuAdapterNode(Node):
             self._take,
             self._finish,
             begin=None if sources.is_live(source) else begin,
+            declare=self._declare,
         )
         self.check = self.device.source.check
         self.device.start()
 
     def _play_file(self, source: sources.Source, play: PlayConfig) -> None:
         samples = sources.load(source, self._foot)
+        self._declare(samples.increments)
         series: dict[str, ImuSeries | FieldSeries] = {self._foot: samples}
         if (field := samples.field) is not None:
             self._publish_field()
@@ -264,7 +279,8 @@ class ImuAdapterNode(Node):
         self.done.set_result(True)
 
     def _make_report(self) -> AdapterReport:
-        parts = self.field, self.monitor, self.device, self.stamper, self._unit_check
+        links = self.monitor, self.device, self.stamper
+        parts = self.field, self.increments, *links, self._unit_check
         described = [part for part in parts if part is not None]
         return AdapterReport(self.counters, self.check, described, self._outcomes)
 

@@ -17,6 +17,8 @@ from ..recording import Recording, RecordingError, find_topics, read_bag
 from ..settings import PlayConfig, ReplayConfig, node_specs
 from .inputs.field_topics import TOPICS as MAGNETIC
 from .inputs.field_topics import FieldOutput
+from .inputs.increments_topics import TOPICS as KINDS
+from .inputs.increments_topics import IncrementsOutput
 from .inputs.pressure_topics import TOPICS, PressureOutputs
 from .playback.player import Player, Sample, Series, in_order
 from .ros import qos
@@ -31,9 +33,9 @@ DEPTH = 2000
 CLOCK_STEP_NS = 5_000_000
 PROGRAM = Program(
     "replay",
-    "Publish the samples of a bag as left|right/imu/data_raw, its magnetic fields as\n"
-    "left|right/imu/mag, its air pressure as left|right/pressure or pressure, and /clock; ends\n"
-    "with the bag.",
+    "Publish the samples of a bag as left|right/imu/data_raw, what they are as\n"
+    "left|right/imu/increments, its magnetic fields as left|right/imu/mag, its air pressure as\n"
+    "left|right/pressure or pressure, and /clock; ends with the bag.",
     "  ros2 run dualfoot_ros replay --ros-args -p bag:=bags/demo\n"
     "  ros2 run dualfoot_ros replay --ros-args -p bag:=walk.mcap -p play.rate:=4.0 "
     "-p play.loop:=true",
@@ -69,6 +71,9 @@ class ReplayNode(Node):
         samples |= {MAGNETIC[foot]: field for foot, field in fields.items() if field is not None}
         samples |= {TOPICS[worn]: series for worn, series in pressure.items()}
         self.pressure = PressureOutputs(self, pressure, DEPTH)
+        self.increments = {foot: IncrementsOutput(self, KINDS[foot]) for foot in self.series}
+        for foot, imu in self.series.items():
+            self.increments[foot].declare(imu.increments)
         self.fields = {
             topic: FieldOutput(self, topic, recording.frame(foot), DEPTH)
             for foot, topic in MAGNETIC.items()

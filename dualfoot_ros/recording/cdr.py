@@ -64,6 +64,23 @@ def decode_one(
     return seconds * 1_000_000_000 + nanoseconds, values, read[0]
 
 
+def decode_text(message: bytes) -> str:
+    """Return the text of a message that is one string, of either byte order.
+
+    Raises
+    ------
+    ValueError
+        When it is too short, or no plain CDR.
+    """
+    order = {LITTLE_ENDIAN: "<", BIG_ENDIAN: ">"}.get(message[:4])
+    if order is None or len(message) < 8:
+        raise ValueError("it is too short or no CDR")
+    (length,) = struct.unpack_from(f"{order}I", message, 4)
+    if len(message) < 8 + length:
+        raise ValueError("it is too short")
+    return message[8 : 8 + length].removesuffix(b"\0").decode("utf-8", "replace")
+
+
 def from_ros1(message: bytes, texts: int = 1) -> bytes:
     """Return a message of ROS 1 with a header as CDR; ``texts`` strings stand behind the stamp.
 

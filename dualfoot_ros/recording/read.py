@@ -12,12 +12,14 @@ from ..core import (
     FEET,
     FloatArray,
     ImuSeries,
+    Increments,
     IntArray,
     PoseSeries,
     PressureSeries,
     RecordingError,
 )
 from . import message_tables as messages
+from .increments_topic import decode_kind
 from .open_bag import iterate, opened
 from .recording import Recording
 from .reference import FILE_NAME, Reference
@@ -26,6 +28,7 @@ from .storage.bag_source import BagSource
 from .topics import (
     FIELD_TYPE,
     IMU_TYPE,
+    INCREMENTS_TYPE,
     PRESSURE_TYPE,
     TRUTH_TYPE,
     VECTOR_TYPE,
@@ -44,7 +47,8 @@ def read_bag(
 
     ``path`` is the folder of the bag, or its one .mcap, .db3 or .bag file.  Of a bag that was cut
     off the part that is there is read, and ``Recording.cut`` says so.  A topic that is not there
-    is None in the recording.  A topic named as one of pressure but of another type is not read.
+    is None in the recording.  A topic named as one of pressure or of what the samples are, but of
+    another type, is not read.
     ``progress`` is called with the share read, 0 to 1.
 
     Raises
@@ -66,12 +70,16 @@ def read_logged(
     path = Path(path)
     topics = topics or Topics()
     raw = _read_raw(path, topics, progress)
-    tables = {topic: table.decode(topic) for topic, table in raw.topics.items()}
+    tables = {
+        topic: table.decode(topic)
+        for topic, table in raw.topics.items()
+        if table.msgtype != INCREMENTS_TYPE
+    }
     parts: dict[str, Any] = {}
     logged: dict[str, IntArray] = {}
     for foot in FEET:
         names = topics.of(foot)
-        samples = _samples(tables, names)
+        samples = _samples(tables, names, _kind(raw, names.increments))
         parts[foot] = None if samples is None else samples.series
         logged[foot] = np.empty(0, dtype=np.int64) if samples is None else samples.log_ns
         parts[f"{foot}_truth"] = _truth(tables.get(names.truth))
@@ -131,12 +139,15 @@ def _expected_types(topics: Topics) -> dict[str, tuple[str, ...]]:
             expected |= dict.fromkeys((names.imu, names.force), (IMU_TYPE, VECTOR_TYPE))
         expected[names.magnetic_field] = (FIELD_TYPE,)
         expected[names.truth] = (TRUTH_TYPE,)
+        expected[names.increments] = (INCREMENTS_TYPE,)
     return expected | dict.fromkeys(topics.pressure.values(), (PRESSURE_TYPE,))
 
 
 def _has_other_type(topic: str, msgtype: str, topics: Topics) -> bool:
-    """Return whether it has the name of a pressure topic but another type."""
-    return topic in topics.pressure.values() and msgtype != PRESSURE_TYPE
+    """Return whether it has a name that anyone may use for something else, and another type."""
+    free = dict.fromkeys(topics.pressure.values(), PRESSURE_TYPE)
+    free |= {topics.of(foot).increments: INCREMENTS_TYPE for foot in FEET}
+    return free.get(topic, msgtype) != msgtype
 
 
 def _check_type(topic: str, msgtype: str, expected: tuple[str, ...]) -> None:
@@ -153,7 +164,13 @@ def _notes(source: BagSource) -> dict[str, str]:
     }
 
 
-def _samples(tables: dict[str, messages.Table], names: FootTopics) -> Samples | None:
+def _kind(raw: _Raw, topic: str) -> Increments | None:
+    return decode_kind(raw.topics[topic].data, topic) if topic in raw.topics else None
+
+
+def _samples(
+    tables: dict[str, messages.Table], names: FootTopics, kind: Increments | None
+) -> Samples | None:
     """Return the samples of a foot, of one topic or of two; None where a topic is missing."""
     imu, field = tables.get(names.imu), tables.get(names.magnetic_field)
     if imu is None:
@@ -161,11 +178,11 @@ def _samples(tables: dict[str, messages.Table], names: FootTopics) -> Samples | 
     magnetic = None
     if names.force:
         force = tables.get(names.force)
-        return None if force is None else join(imu, force)
+        return None if force is None else join(imu, force, kind)
     if field is not None and len(field.stamp_ns):
         magnetic = _on_stamps(imu, field)
     rate, force_values = imu.values[:, messages.RATE], imu.values[:, messages.FORCE]
-    return Samples(ImuSeries(imu.stamp_ns, force_values, rate, magnetic), imu.log_ns)
+    return Samples(ImuSeries(imu.stamp_ns, force_values, rate, magnetic, kind), imu.log_ns)
 
 
 def _on_stamps(imu: messages.Table, field: messages.Table) -> FloatArray:

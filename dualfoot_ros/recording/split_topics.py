@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core import FloatArray, ImuSeries, IntArray
+from ..core import FloatArray, ImuSeries, Increments, IntArray
 from . import message_tables as messages
 
 LONGEST_HOLE = 2.5  # median intervals of the accelerometer; across more is not interpolated
@@ -19,7 +19,7 @@ class Samples(NamedTuple):
     log_ns: IntArray
 
 
-def join(rate: messages.Table, force: messages.Table) -> Samples:
+def join(rate: messages.Table, force: messages.Table, kind: Increments | None = None) -> Samples:
     """Return samples at the stamps of the angular rate, the specific force interpolated there.
 
     Messages without stamps are joined by their log times.  Where the specific force is missing,
@@ -35,7 +35,9 @@ def join(rate: messages.Table, force: messages.Table) -> Samples:
         there = _has_neighbours(at_ns, known)
         forces = _interpolate(at_ns[there], known, _vectors(force, messages.FORCE)[first])
     rates = _vectors(rate, messages.RATE)[there]
-    return Samples(ImuSeries(rate.stamp_ns[there], forces, rates), rate.log_ns[there])
+    return Samples(
+        ImuSeries(rate.stamp_ns[there], forces, rates, increments=kind), rate.log_ns[there]
+    )
 
 
 def _vectors(table: messages.Table, part: slice) -> FloatArray:

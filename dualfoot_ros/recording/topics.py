@@ -9,7 +9,9 @@ IMU_TYPE = "sensor_msgs/msg/Imu"
 VECTOR_TYPE = "geometry_msgs/msg/Vector3Stamped"
 FIELD_TYPE = "sensor_msgs/msg/MagneticField"
 TRUTH_TYPE = "nav_msgs/msg/Odometry"
+INCREMENTS_TYPE = "std_msgs/msg/String"
 PRESSURE_TYPE = "sensor_msgs/msg/FluidPressure"
+DATA_NAMES = ("data_raw", "data_sync", "data")  # of samples, by REP 145 and here
 PRESSURE_TOPICS = {"left": "/left/pressure", "right": "/right/pressure", "both": "/pressure"}
 
 
@@ -32,6 +34,12 @@ class FootTopics:
     def samples(self) -> str:
         """The topic or the two topics of the samples, as ``--left-topic`` takes them."""
         return f"{self.force},{self.imu}" if self.force else self.imu
+
+    @property
+    def increments(self) -> str:
+        """The topic that says what the samples are: beside ``imu``, below it for other names."""
+        space, _, name = self.imu.rpartition("/")
+        return f"{space if name in DATA_NAMES else self.imu}/increments"
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,20 @@ from ..core import FEET, FloatArray, ImuSeries, IntArray, PoseSeries, RecordingE
 from . import cdr
 from . import message_tables as messages
 from .atomic import check_target, new_directory
+from .increments_topic import encode_kind
 from .open_bag import METADATA
 from .read import NOTE_PREFIX, Progress
 from .recording import Recording
 from .reference import FILE_NAME
 from .storage.bag_writer import new_bag
-from .topics import FIELD_TYPE, IMU_TYPE, PRESSURE_TYPE, TRUTH_TYPE, Topics
+from .topics import (
+    FIELD_TYPE,
+    IMU_TYPE,
+    INCREMENTS_TYPE,
+    PRESSURE_TYPE,
+    TRUTH_TYPE,
+    Topics,
+)
 
 STORAGES = ("mcap", "sqlite3")
 BODY_FRAME = "base_link"
@@ -43,7 +51,8 @@ def write_bag(
 ) -> Path:
     """Write ``recording`` as a rosbag2 folder ``path`` and return the path.
 
-    Samples keep their order: a message is logged at the latest stamp so far.  The reference goes
+    Samples keep their order: a message is logged at the latest stamp so far.  What the samples are
+    is logged before them, where it is known.  The reference goes
     into ``reference.yaml`` inside the folder, the notes into the bag's custom data.
 
     Raises
@@ -72,6 +81,9 @@ def _channels(recording: Recording, topics: Topics) -> Iterator[_Channel]:
     for foot in FEET:
         names, frame = topics.of(foot), recording.frame(foot)
         imu, truth = recording.imu(foot), recording.truth(foot)
+        if imu is not None and imu.increments is not None and len(imu):
+            kind = encode_kind(imu.increments)
+            yield _Channel(names.increments, INCREMENTS_TYPE, imu.stamp_ns[:1], kind)
         if imu is not None:
             yield _channel(names.imu, IMU_TYPE, imu.stamp_ns, _imu_values(imu), (frame,))
             if imu.magnetic_field is not None:
@@ -130,7 +142,10 @@ def _write(
 ) -> None:
     custom = {NOTE_PREFIX + key: str(value) for key, value in recording.notes.items()}
     with new_bag(folder, storage, custom) as writer:
-        keys = [writer.add_topic(c.topic, c.msgtype) for c in channels]
+        keys = [
+            writer.add_topic(c.topic, c.msgtype, latched_depth=int(c.msgtype == INCREMENTS_TYPE))
+            for c in channels
+        ]
         logged, which, row = _in_order(channels)
         for done, (stamp, channel, i) in enumerate(zip(logged, which, row, strict=True)):
             writer.write(keys[channel], stamp, channels[channel].rows[i].tobytes())

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..core import MountingConfig, Parameters, ParameterSpec, parameter
+from ..core import Increments, MountingConfig, Parameters, ParameterSpec, parameter
 from ..drivers import CheckConfig
 from ..timing import POLICIES, AlignerConfig, DeviceClockConfig, StampConfig
 
 SYNC_CHOICES = ("internal", "external")
+FROM_SOURCE = "from_source"
 
 
 @dataclass(frozen=True)
@@ -125,6 +126,23 @@ class UnitConfig(Parameters):
 
 
 @dataclass(frozen=True)
+class KindConfig(Parameters):
+    """What the samples of one sensor are."""
+
+    kind: str = parameter(
+        FROM_SOURCE,
+        "what the samples are, published for fusion; from_source: as the file or the device says, "
+        "and nothing where it does not, see docs/explanation/samples.md",
+        choices=(FROM_SOURCE, *(kind.value for kind in Increments)),
+    )
+
+    @property
+    def given(self) -> Increments | None:
+        """The kind that is given, None to take that of the source."""
+        return None if self.kind == FROM_SOURCE else Increments(self.kind)
+
+
+@dataclass(frozen=True)
 class CovarianceConfig(Parameters):
     """Noise that is published with every sample, where it is known."""
 
@@ -184,6 +202,7 @@ GROUPS: dict[str, type[Parameters]] = {
     "reports": ReportConfig,
     "mounting": MountingConfig,
     "units": UnitConfig,
+    "increments": KindConfig,
     "covariance": CovarianceConfig,
     "checks": CheckConfig,
     "stamping": StampConfig,
@@ -197,7 +216,10 @@ NODES: dict[str, tuple[type[Parameters], tuple[str, ...]]] = {
     ),
     "imu_adapter": (
         AdapterConfig,
-        ("mounting", "units", "covariance", "checks", "clock", "play", "input", "reports"),
+        (
+            *("mounting", "units", "increments", "covariance", "checks", "clock"),
+            *("play", "input", "reports"),
+        ),
     ),
     "time_sync": (Parameters, ("aligner", "stamping", "clock", "input", "reports")),
     "replay": (ReplayConfig, ("play", "reports")),

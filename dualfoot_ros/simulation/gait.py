@@ -2,6 +2,10 @@
 
 The shapes were drawn by eye after the angular rates of real walks with sensors on the instep: slow
 heel rise, push-off at 8-9 rad/s, swing back at 6-7 rad/s, slap of the sole after heel strike.
+
+Roll and yaw of a swing that cones are the means over the strides of two real laps, moved by at
+most 0.08 rad (most keys by less than 0.01) until the coning terms of push-off, swing and heel
+strike and the greatest angular rates are those of these laps.
 """
 
 from __future__ import annotations
@@ -68,6 +72,49 @@ _KEYS = {
         (0.0, 0.12, TOE_OFF, 0.38, 0.55, 0.70, HEEL_STRIKE, 0.92, 1.0),
         (0.0, 0.01, 0.12, 0.22, 0.02, -0.08, 0.03, 0.02, 0.0),
     ),
+    # the same two of a swing that cones as real ones do
+    "coning_roll": (
+        (
+            0.0,
+            0.12,
+            0.20,
+            TOE_OFF,
+            0.33,
+            0.38,
+            0.45,
+            0.56,
+            0.66,
+            0.74,
+            0.79,
+            HEEL_STRIKE,
+            0.88,
+            0.93,
+            0.97,
+            1.0,
+        ),
+        (
+            0.0,
+            -0.014,
+            0.08,
+            0.009,
+            -0.188,
+            -0.151,
+            -0.021,
+            -0.061,
+            0.013,
+            0.097,
+            0.162,
+            0.241,
+            0.231,
+            0.078,
+            0.028,
+            0.0,
+        ),
+    ),
+    "coning_yaw": (
+        (0.0, 0.12, 0.20, TOE_OFF, 0.33, 0.38, 0.45, 0.55, 0.66, 0.74, HEEL_STRIKE, 0.92, 1.0),
+        (0.0, 0.013, 0.022, -0.007, 0.194, 0.146, -0.043, -0.023, -0.028, -0.015, 0.04, -0.008, 0),
+    ),
     # share of the turn to the next footprint; a tenth is done pivoting on the ball
     "turn": (
         (0.0, 0.10, TOE_OFF, 0.53, HEEL_STRIKE, 1.0),
@@ -93,6 +140,15 @@ def shape(name: str, phase: FloatArray) -> FloatArray:
     """Return a template (pitch, roll, yaw, turn or lift) at ``phase`` (N,) in [0, 1]."""
     values: FloatArray = _template(name)(phase)
     return values
+
+
+def turned(name: str, phase: FloatArray, coning: float) -> FloatArray:
+    """Return roll or yaw at ``phase`` (N,), rad, of a swing that cones by this share of real ones.
+
+    With 0 the shapes are those drawn by eye, which cone a third as much and the other way round.
+    """
+    plain = shape(name, phase)
+    return plain + coning * (shape(f"coning_{name}", phase) - plain)
 
 
 def advance(phase: FloatArray, skew: FloatArray) -> tuple[FloatArray, FloatArray]:

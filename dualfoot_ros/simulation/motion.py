@@ -187,8 +187,8 @@ class Walker:
         size = self.scale[now]
         turn = gait.shape("turn", q)
         looked = progress[self.before] + (progress[now] - progress[self.before]) * turn
-        yaw = gait.shape("yaw", q) * scatter[:, 0] * size
-        roll = -gait.shape("roll", q) * (1.0 + 3.0 * (scatter[:, 1] - 1.0)) * size
+        yaw = gait.turned("yaw", q, config.coning) * scatter[:, 0] * size
+        roll = -gait.turned("roll", q, config.coning) * (1.0 + 3.0 * (scatter[:, 1] - 1.0)) * size
         heading = self.route.heading(looked) + self.side * (config.toe_out + yaw)
         rolled = np.column_stack([heading, pitch + self._roll_over(), self.side * roll])
         return rolled + self._rest

@@ -1,18 +1,88 @@
-"""The output of an ideal sensor: the means of specific force and angular rate over each interval.
+"""The output of an ideal sensor: specific force and angular rate of each interval, by kind.
 
-Real inertial sensors integrate between two outputs; a sample is stamped at the *end* of its
-interval.  The means are taken by Gauss-Legendre quadrature on the exact motion.
+A sample is stamped at the *end* of its interval.  Means are taken by Gauss-Legendre quadrature on
+the exact motion.  A compensating device integrates such means of a faster clock of its own, coning
+and sculling included, and gives what would turn and push as much if it were held constant.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from ..core import FloatArray
+from ..core import FloatArray, Increments
 from .motion import Kinematics, ShoeMotion
 
 PANEL_S = 0.006
 CHUNK = 20_000
+SMALL_RAD = 1e-2  # below which a series is exact
+INNER_HZ = 800.0  # least rate of the clock inside a compensating device, as in the Xsens DOT
+
+
+def sensed(
+    motion: ShoeMotion,
+    lever: FloatArray,
+    mounting: FloatArray,
+    edges_s: FloatArray,
+    kind: Increments,
+) -> tuple[FloatArray, FloatArray]:
+    """Return force (N, 3) m/s^2 and rate (N, 3) rad/s of ``kind`` between N + 1 ``edges_s``."""
+    if kind is Increments.AVERAGED:
+        return interval_means(motion, lever, mounting, edges_s)
+    if kind is Increments.SAMPLED:
+        moved = motion.kinematics(edges_s[1:], lever, mounting)
+        return moved.specific_force, moved.angular_rate
+    return compensated_values(motion, lever, mounting, edges_s)
+
+
+def compensated_values(
+    motion: ShoeMotion, lever: FloatArray, mounting: FloatArray, edges_s: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return force and rate (N, 3) that, held over each interval, give its compensated increments.
+
+    Strapdown integration at the inner clock with the two-sample terms, then its inverse.
+    """
+    from scipy.spatial.transform import Rotation
+
+    interval = np.diff(edges_s)
+    parts = int(np.ceil(float(interval.max()) * INNER_HZ))
+    inner = edges_s[:-1, None] + interval[:, None] * np.arange(parts) / parts
+    inner_edges = np.append(inner.ravel(), edges_s[-1])
+    force, rate = interval_means(motion, lever, mounting, inner_edges)
+    alpha, gamma = _two_sample(force, rate, np.diff(inner_edges)[:, None])
+    shape = len(interval), parts, 3
+    alpha, gamma = alpha.reshape(shape), gamma.reshape(shape)
+    turn, push = Rotation.identity(len(interval)), np.zeros((len(interval), 3))
+    for part in range(parts):
+        push = push + turn.apply(gamma[:, part])
+        turn = turn * Rotation.from_rotvec(alpha[:, part])
+    held = turn.as_rotvec()
+    return _held_force(held, push) / interval[:, None], held / interval[:, None]
+
+
+def _two_sample(
+    force: FloatArray, rate: FloatArray, dt: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return rotation (N, 3) rad and push (N, 3) m/s of each inner interval, eqs (1) and (2)."""
+    alpha, gamma = rate * dt, force * dt
+    alpha_before, gamma_before = (np.vstack([x[:1], x[:-1]]) for x in (alpha, gamma))
+    rotation = alpha + np.cross(alpha_before, alpha) / 12.0
+    across = np.cross(alpha_before, gamma) + np.cross(gamma_before, alpha)
+    return rotation, gamma + 0.5 * np.cross(alpha, gamma) + across / 12.0
+
+
+def _held_force(alpha: FloatArray, push: FloatArray) -> FloatArray:
+    """Return (N, 3) m/s of force that pushes by ``push`` while the body turns by ``alpha`` rad.
+
+    The inverse of v = gamma + b alpha x gamma + c alpha x (alpha x gamma), which is
+    gamma = v - alpha x v / 2 + e alpha x (alpha x v), e = (1 - (a / 2) cot(a / 2)) / a^2.
+    """
+    half = 0.5 * np.linalg.norm(alpha, axis=1, keepdims=True)
+    safe = np.maximum(half, 1e-3)
+    near = (1.0 + half**2 / 15.0) / 12.0
+    e = np.where(half < SMALL_RAD, near, (1.0 - safe / np.tan(safe)) / (4.0 * safe**2))
+    across = np.cross(alpha, push)
+    force: FloatArray = push - 0.5 * across + e * np.cross(alpha, across)
+    return force
 
 
 def interval_means(

@@ -1,4 +1,4 @@
-"""The errors of an inertial sensor, from the true motion to its output.
+"""The errors of an inertial sensor, from the true motion to its output, and the kind of output.
 
 In this order: scale and misalignment, g-sensitivity, turn-on bias, warm-up drift, bias instability
 (first-order Gauss-Markov), white noise, saturation, quantisation.
@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..core import FloatArray, Parameters, SimulationError, parameter
+from ..core import FloatArray, Increments, Parameters, SimulationError, parameter
 from .noise import gauss_markov
 
 _RATE = "rad/s"
@@ -29,6 +29,12 @@ class SensorConfig(Parameters):
         "how the two feet's errors go together: drawn apart, or mirror images of each other "
         "(noise and instability are independent always)",
         choices=("independent", "mirrored"),
+    )
+    increments: str = parameter(
+        "averaged",
+        "what a sample is: compensated increments of a device with a clock of 800 Hz inside, the "
+        "mean over its interval, or the value at its stamp",
+        choices=tuple(kind.value for kind in Increments),
     )
     gyro_noise: float = parameter(
         1.2e-4, "white noise density", unit="rad/s/sqrt(Hz)", minimum=0.0, maximum=0.1

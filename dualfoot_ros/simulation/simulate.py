@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core import FEET, ImuSeries, IntArray, PoseSeries, PressureSeries
+from ..core import FEET, ImuSeries, Increments, IntArray, PoseSeries, PressureSeries
 from .air_pressure import BarometerConfig, barometers
 from .clocks import ClockConfig, Sampling, sample_times
 from .magnetometer import MagnetometerConfig, Surroundings, sense_field
@@ -124,11 +124,12 @@ def _record(
     foot = ("left", "right")[index]
     rate = walked.config.rate
     times: Sampling = sample_times(clock, rate, walked.duration_s, START_NS, rngs[f"{foot} clock"])
-    force, turn = walked.means(index, times.edges_s)
+    kind = Increments(sensor.increments)
+    force, turn = walked.sensed(index, times.edges_s, kind)
     ends = times.edges_s[1:]
     force, turn = measure(sensor, errors, ends, force, turn, rngs[f"{foot} noise"])
     truth = walked.truth(index, ends, times.true_ns(START_NS))
-    series = ImuSeries(times.stamp_ns, force, turn)
+    series = ImuSeries(times.stamp_ns, force, turn, increments=kind)
     return _Recorded(series, truth, times.arrival_ns, times.kept)
 
 

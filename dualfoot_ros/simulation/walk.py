@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..core import FloatArray, IntArray, PoseSeries, SimulationError
+from ..core import FloatArray, Increments, IntArray, PoseSeries, SimulationError
 from .footprints import Footprints, plan
 from .motion import ShoeMotion, Walker
 from .passing import NO_PASSES, Passes, pass_plan, passes, tune
 from .routes import Route, route
-from .sampling import interval_means
+from .sampling import interval_means, sensed
 from .walk_config import WalkConfig
 
 START_NS = 1_750_000_000_000_000_000
@@ -45,6 +45,13 @@ class Walk:
         """Return true mean specific force and rate (N, 3) of sensor 0 (left) or 1 (right)."""
         place = self.levers[sensor], self.mountings[sensor]
         return interval_means(self.shoes[sensor], *place, edges_s)
+
+    def sensed(
+        self, sensor: int, edges_s: FloatArray, kind: Increments
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return true force and rate (N, 3) of sensor 0 (left) or 1 (right), of that kind."""
+        place = self.levers[sensor], self.mountings[sensor]
+        return sensed(self.shoes[sensor], *place, edges_s, kind)
 
     def truth(self, sensor: int, time_s: FloatArray, stamp_ns: IntArray) -> PoseSeries:
         """Return the exact poses and velocities of a sensor at ``time_s`` (N,) s."""

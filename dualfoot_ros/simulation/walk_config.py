@@ -120,6 +120,12 @@ class Gait(Parameters):
     shape_std: float = parameter(
         0.06, "relative spread of the swing's rotation and lift", minimum=0.0, maximum=0.2
     )
+    coning: float = parameter(
+        1.0,
+        "how much the swinging foot cones: 1 as real feet do, 0 the shapes of version 0.1",
+        minimum=0.0,
+        maximum=1.5,
+    )
     clearance: float = parameter(
         0.05, "lift of the ball of the swinging foot", unit="m", minimum=0.0, maximum=0.2
     )

@@ -2,6 +2,7 @@
 
 import pytest
 
+from dualfoot_ros.core import Increments
 from dualfoot_ros.recording import Reference, read_bag
 from dualfoot_ros.recording.importers import FORMATS
 
@@ -34,6 +35,15 @@ def test_a_pair_of_exports_becomes_a_bag(tmp_path, pair, dualfoot_process):
 def test_the_storage_is_the_one_asked_for(tmp_path, pair, storage, suffix, dualfoot):
     dualfoot("import", *pair, "-o", "walk", "--storage", storage, cwd=tmp_path)
     assert (tmp_path / "walk" / f"walk{suffix}").exists()
+
+
+def test_an_export_of_the_dot_app_has_compensated_increments_unless_told_otherwise(
+    tmp_path, pair, dualfoot
+):
+    dualfoot("import", *pair, "-o", "walk", cwd=tmp_path)
+    assert read_bag(tmp_path / "walk").left.increments is Increments.COMPENSATED
+    dualfoot("import", *pair, "-o", "other", "--increments", "averaged", cwd=tmp_path)
+    assert read_bag(tmp_path / "other").right.increments is Increments.AVERAGED
 
 
 def test_list_names_every_format(tmp_path, dualfoot):

@@ -2,11 +2,12 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from dualfoot_ros.core import ImuSeries
+from dualfoot_ros.core import ImuSeries, Increments
 from dualfoot_ros.recording import Recording, write_bag
 
 GRAVITY = 9.80665
@@ -42,6 +43,20 @@ def test_the_words_tell_what_is_in_the_bag(bag, dualfoot):
         "the bag can be evaluated",
     ):
         assert words in done.stdout
+
+
+def test_the_words_tell_what_the_samples_are_or_that_nothing_says_it(
+    bag, tmp_path, dualfoot, dualfoot_process
+):
+    unknown = dualfoot("info", bag, "--no-stances").stdout
+    assert unknown.count("nothing says what the samples are: taken for averaged") == 2
+    left = replace(standing(1), increments=Increments.COMPENSATED)
+    known = write_bag(tmp_path / "known", Recording(left, standing(2)))
+    words = dualfoot("info", known, "--no-stances").stdout
+    assert "samples are compensated increments (compensated), as the recording says" in words
+    assert "--set increments.right=compensated or sampled otherwise" in words
+    feet = json.loads(dualfoot_process("info", known, "--json", "--no-stances").stdout)["feet"]
+    assert [feet[foot]["increments"] for foot in ("left", "right")] == ["compensated", None]
 
 
 def test_json_is_one_object_and_nothing_else(bag, dualfoot_process):

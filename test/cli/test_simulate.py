@@ -11,6 +11,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.cli.main import main
+from dualfoot_ros.core import Increments
 from dualfoot_ros.evaluation.frames.association import truth_at
 from dualfoot_ros.recording import read_bag
 from dualfoot_ros.simulation import ROUTES, SensorConfig, WalkConfig, simulate
@@ -201,6 +202,14 @@ def test_help_has_examples_and_the_process_ends_with_zero():
     )
     assert done.returncode == 0
     assert "dualfoot simulate -o walk" in done.stdout
+
+
+def test_the_samples_of_a_simulated_bag_are_of_the_kind_asked_for(tmp_path):
+    assert (
+        main(["simulate", "-o", str(tmp_path / "dots"), *SHORT, "--increments", "compensated"])
+        == 0
+    )
+    assert read_bag(tmp_path / "dots").right.increments is Increments.COMPENSATED
 
 
 def test_the_demo_bag_is_what_the_script_makes(tmp_path):

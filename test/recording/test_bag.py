@@ -1,15 +1,16 @@
 """Bags: what is written comes back, what is broken is said, nothing is left half-written."""
 
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from dualfoot_ros.core import ImuSeries
+from dualfoot_ros.core import ImuSeries, Increments
 from dualfoot_ros.recording import (
     Recording,
     RecordingError,
@@ -79,6 +80,76 @@ def test_topics_with_other_names_are_read_and_written(tmp_path):
     assert "/imu_l" in list_topics(tmp_path / "walk")
     assert read_bag(tmp_path / "walk").left is None
     assert same(read_bag(tmp_path / "walk", topics=topics).left, recording().left)
+
+
+@pytest.mark.parametrize("kind", [None, *Increments])
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_a_bag_says_what_its_samples_are(tmp_path, kind, storage):
+    whole = recording()
+    left = replace(whole.left, increments=kind)
+    write_bag(tmp_path / "walk", replace(whole, left=left), storage=storage)
+    read = read_bag(tmp_path / "walk")
+    assert read.left.increments is kind
+    assert read.right.increments is None
+    listed = list_topics(tmp_path / "walk")
+    assert ("/left/imu/increments" in listed) is (kind is not None)
+
+
+def test_what_the_samples_are_goes_with_their_topic(tmp_path):
+    left = replace(recording().left, increments=Increments.SAMPLED)
+    write_bag(tmp_path / "walk", Recording(left, recording().right))
+    default = Topics()
+    swapped = Topics(
+        left=replace(default.left, imu=default.right.imu),
+        right=replace(default.right, imu=default.left.imu),
+    )
+    read = read_bag(tmp_path / "walk", topics=swapped)
+    assert (read.left.increments, read.right.increments) == (None, Increments.SAMPLED)
+
+
+@pytest.mark.parametrize(
+    ("imu", "beside"),
+    [
+        ("/left/imu/data_raw", "/left/imu/increments"),
+        ("/a/data", "/a/increments"),
+        ("/imu/left", "/imu/left/increments"),
+        ("/imu_l", "/imu_l/increments"),
+    ],
+)
+def test_the_feet_never_share_the_topic_that_says_what_their_samples_are(imu, beside):
+    assert FootTopics(imu, "", "", "", "").increments == beside
+
+
+def test_a_player_latches_what_the_samples_are(tmp_path):
+    left = replace(recording().left, increments=Increments.AVERAGED)
+    write_bag(tmp_path / "walk", Recording(left))
+    with Reader(tmp_path / "walk") as reader:
+        (qos,) = reader.topics["/left/imu/increments"].connections[0].ext.offered_qos_profiles
+        (first, *_) = (connection.topic for connection, _, _ in reader.messages())
+    assert qos.durability.name == "TRANSIENT_LOCAL"
+    assert first == "/left/imu/increments"
+
+
+def said_bag(path, text, name="/left/imu/increments", kind="std_msgs/msg/String"):
+    """Write a bag that says ``text`` on a topic, in the type ``kind``."""
+    with Writer(path, version=9, storage_plugin=StoragePlugin.SQLITE3) as writer:
+        connection = writer.add_connection(name, kind, typestore=STORE)
+        message = STORE.types[kind](data=text)
+        writer.write(connection, 10**9, STORE.serialize_cdr(message, kind))
+
+
+def test_a_kind_that_is_none_is_refused_with_the_topic_and_what_is_allowed(tmp_path):
+    said_bag(tmp_path / "walk", "smooth")
+    with pytest.raises(
+        RecordingError,
+        match="'/left/imu/increments' says 'smooth'; allowed is one of compensated, averaged",
+    ):
+        read_bag(tmp_path / "walk")
+
+
+def test_a_topic_of_that_name_and_another_type_says_nothing(tmp_path):
+    said_bag(tmp_path / "walk", 1.0, kind="std_msgs/msg/Float64")
+    assert read_bag(tmp_path / "walk").left is None
 
 
 def foreign_bag(path, frames, topic="/left/imu/data_raw"):

@@ -5,19 +5,22 @@ The module is a stand-in with the interface of rosbag2_py that is used, over ros
 
 import importlib.util
 import sys
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 
-from dualfoot_ros.core import RecordingError
+from dualfoot_ros.core import Increments, RecordingError
 from dualfoot_ros.recording import read_bag, write_bag
 from dualfoot_ros.recording.storage import bag_writer
 from dualfoot_ros.recording.storage.rosbag2_py_source import Rosbag2PySource
 
 from .foreign import STORE, cut
 from .samples import recording
+
+STRING = "std_msgs/msg/String"
 
 
 class SequentialReader:
@@ -70,6 +73,10 @@ class SequentialWriter:
 
     def create_topic(self, topic):
         assert topic.serialization_format == "cdr"
+        profiles = getattr(topic, "offered_qos_profiles", [])
+        assert [profile.said for profile in profiles] == (
+            [(1, "reliable", "transient_local")] if topic.type == STRING else []
+        )
         key = self.writer.add_connection(topic.name, topic.type, typestore=STORE)
         self.keys[topic.name] = key
 
@@ -79,6 +86,21 @@ class SequentialWriter:
 
     def close(self):
         self.writer.close()
+
+
+class QoS:
+    """Profile with the methods of rosbag2_py's that are used here."""
+
+    def __init__(self, history_depth):
+        self.said = (history_depth,)
+
+    def reliable(self):
+        self.said += ("reliable",)
+        return self
+
+    def transient_local(self):
+        self.said += ("transient_local",)
+        return self
 
 
 class WriterWithoutClose(SequentialWriter):
@@ -106,6 +128,7 @@ def stock_ros(monkeypatch):
         TopicMetadata=SimpleNamespace,
     )
     monkeypatch.setitem(sys.modules, "rosbag2_py", module)
+    monkeypatch.setitem(sys.modules, "rosbag2_py._storage", SimpleNamespace(QoS=QoS))
     hide(monkeypatch, "rosbags")
     return module
 
@@ -128,12 +151,14 @@ def hide(monkeypatch, *names):
 @pytest.mark.parametrize("writer", [SequentialWriter, WriterWithoutClose])
 def test_a_recording_comes_back_to_the_bit(tmp_path, stock_ros, storage, writer):
     stock_ros.SequentialWriter = writer
-    written = recording()
+    made = recording()
+    written = replace(made, left=replace(made.left, increments=Increments.SAMPLED))
     path = write_bag(tmp_path / "walk", written, storage=storage)
     read = read_bag(path)
     for foot in ("left", "right"):
         assert np.array_equal(read.imu(foot).stamp_ns, written.imu(foot).stamp_ns)
         assert np.array_equal(read.imu(foot).angular_rate, written.imu(foot).angular_rate)
+    assert (read.left.increments, read.right.increments) == (Increments.SAMPLED, None)
     assert read.notes == {"source": "made up"}
     assert read.reference.length_m == 12.5
 

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from dualfoot_ros.core import Increments
 from dualfoot_ros.core.constraints.step_length import step_length
 from dualfoot_ros.settings.presets import load_config
 
@@ -16,6 +17,13 @@ def test_no_paper_has_the_pivot_or_the_longer_stand(name):
     zupt = load_config(name).zupt
     assert (zupt.lever_arm, zupt.rate_std) == (0.0, 0.0)
     assert zupt.still_after >= 1e6
+
+
+@pytest.mark.parametrize("name", PAPERS)
+def test_every_paper_keeps_the_two_sample_terms_whatever_the_source_says(name):
+    increments = load_config(name).increments
+    for foot in ("left", "right"):
+        assert increments.of(foot, Increments.COMPENSATED) is Increments.AVERAGED
 
 
 @pytest.mark.parametrize("name", ("ma2023_vdc", "ma2023_svc"))

@@ -32,9 +32,14 @@ def numbers(line):
     return [float(each) for each in re.findall(r"[0-9]+(?:\.[0-9]+)?", line)]
 
 
-def test_without_the_data_set_the_program_says_what_it_misses(tmp_path):
+def test_without_the_data_set_the_program_shows_the_simulated_walks_and_says_what_it_misses(
+    tmp_path,
+):
     run = likeness(tmp_path)
-    assert run.returncode == 2
+    assert run.returncode == 0
+    assert run.stdout.startswith("| | simulated, 1.2 m/s | simulated, 1.6 m/s |\n|---|---|---|\n")
+    coning = numbers(run.stdout.splitlines()[-1].split("|", 2)[2])
+    assert coning[2:] == pytest.approx([17.0, 18.0], abs=2.0)  # on the track
     assert (
         f"the dual-feet data set (rectangle_ccw, running_track) is not in '{tmp_path}'"
         in run.stderr

@@ -31,6 +31,7 @@ static uint8_t *begin(uint8_t *plain, uint8_t layout, uint16_t counter, uint32_t
                       const dualfoot_extras *extras) {
     if (extras && extras->centidegrees) layout |= 0x10;
     if (extras && extras->field) layout |= 0x20;
+    if (extras) layout = (uint8_t)(layout | (extras->increments & 3u) << 6);
     return put(put(put(plain, layout, 1), counter, 2), micros, 4);
 }
 

@@ -11,10 +11,16 @@
 extern "C" {
 #endif
 
+/* What force and rate are; zero does not say. */
+#define DUALFOOT_AVERAGED 1    /* means over the interval, as of a FIFO that was summed */
+#define DUALFOOT_SAMPLED 2     /* values at the instant */
+#define DUALFOOT_COMPENSATED 3 /* held, they give increments compensated for coning and sculling */
+
 /* Temperature and magnetic field that may go along; NULL in place of either leaves it out. */
 typedef struct {
     const int16_t *centidegrees; /* 1 value, 0.01 degrees Celsius */
     const int16_t *field;        /* 3 values, 0.1 microtesla */
+    uint8_t increments;          /* one of the above, or zero */
 } dualfoot_extras;
 
 /* Both fill `out` (DUALFOOT_FRAME_MAX bytes) and return how many bytes to send.  `extras` may be

@@ -45,6 +45,7 @@ def _signatures() -> dict[str, Any]:
         "emit": void(w, n, rows, int64),
         "collect": void(w, int64),
         "correct": float64(w, int64),
+        "correct_considering": float64(w, int64, int64),
         "turn": void(w, int64, int64, float64, float64, w, w),
     }
 

@@ -20,9 +20,11 @@ from functools import partial
 
 import numpy as np
 
-from ..joint_estimate import JointEstimate, Outcome, relative_row
+from ..joint_estimate import HeadingCorrection, JointEstimate, Outcome, relative_row
+from ..kernel.layout import attitude_row
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit, Passing
+from ..samples.series import FloatArray
 from .learnt_spacing import Spacing
 from .method import Gait, Method, Request, StancePhase
 from .varying_distance import feet_adjacent
@@ -62,6 +64,19 @@ class SpacingVectorConfig(Parameters):
     max_stance: float = parameter(
         1.2, "a longer stance is no step", unit="s", minimum=0.2, maximum=3.0
     )
+    height_std: float = parameter(
+        0.15,
+        "difference in height of the feet in passing (0: height is not constrained)",
+        unit="m",
+        minimum=0.0,
+        maximum=5.0,
+    )
+    heading_correction: str = parameter(
+        "difference",
+        "what the constraint corrects of heading and gyro bias: all (full), as in the paper, the "
+        "difference of the headings, or nothing (none)",
+        choices=("full", "difference", "none"),
+    )
 
 
 class SpacingVector(Method):
@@ -76,7 +91,7 @@ class SpacingVector(Method):
     def __init__(self, config: SpacingVectorConfig) -> None:
         """Use ``config``."""
         self.config = config
-        self.dimensions = 2 if config.variant == "vector" else 1
+        self.dimensions = (2 if config.variant == "vector" else 1) + (config.height_std > 0.0)
         self.spacing = Spacing(config.spacing)
         self.memory_s = config.max_stance
 
@@ -111,19 +126,17 @@ class SpacingVector(Method):
     def apply(
         self, estimate: JointEstimate, heading: float, spacing: float | None = None
     ) -> Outcome:
-        """Project onto eq. (9), or onto its component across ``heading`` (rad)."""
+        """Project onto eq. (9), or onto its component across ``heading`` (rad), and in height."""
         config = self.config
         spacing = self.spacing.value_m if spacing is None else spacing
         left = np.array([-math.sin(heading), math.cos(heading), 0.0])
         r = np.array(estimate.relative_position())
-        if config.variant == "vector":
-            rows = [relative_row([1.0, 0.0, 0.0]), relative_row([0.0, 1.0, 0.0])]
-            innovation = (r - spacing * left)[:2]
-        else:
-            rows = [relative_row(left.tolist())]
-            innovation = np.array([float(r @ left) - spacing])
-        variances = [max(config.spacing_std**2, 1e-12)] * len(rows)
-        s, nis = estimate.update(rows, innovation.tolist(), variances)
+        directions, targets, stds = self._rows(left, spacing)
+        innovation = np.array(directions) @ r - np.array(targets)
+        rows = [self._row(direction, left, spacing) for direction in directions]
+        variances = [max(std**2, 1e-12) for std in stds]
+        correction = HeadingCorrection(config.heading_correction)
+        s, nis = estimate.update(rows, innovation.tolist(), variances, correction)
         passing = Passing(
             DistanceLimit(float(np.sqrt((r**2).sum())), spacing),
             heading,
@@ -132,3 +145,28 @@ class SpacingVector(Method):
             lateral=float(r @ left),
         )
         return Outcome(innovation, s, nis, True, passing)
+
+    def _rows(
+        self, left: FloatArray, spacing: float
+    ) -> tuple[list[list[float]], list[float], list[float]]:
+        """Return directions (m, 3), targets (m,) m and standard deviations (m,) m of the rows."""
+        config = self.config
+        if config.variant == "vector":
+            directions = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+            targets = [float(spacing * left[0]), float(spacing * left[1])]
+        else:
+            directions, targets = [left.tolist()], [spacing]
+        stds = [config.spacing_std] * len(directions)
+        if config.height_std > 0.0:
+            directions.append([0.0, 0.0, 1.0])
+            targets.append(0.0)
+            stds.append(config.height_std)
+        return directions, targets, stds
+
+    def _row(self, direction: list[float], left: FloatArray, spacing: float) -> dict[int, float]:
+        """Return the row of H along ``direction``; its target turns with the mean heading."""
+        row = relative_row(direction)
+        if self.config.heading_correction != HeadingCorrection.FULL:
+            slope = -0.5 * spacing * (direction[0] * left[1] - direction[1] * left[0])
+            row.update({attitude_row(foot, 2): slope for foot in range(2)})
+        return row

@@ -8,6 +8,8 @@ it.  The window ends at the newest sample; nothing here looks ahead.  What a lat
 import math
 
 from .layout import (
+    BINS,
+    C_ADAPTS,
     C_FOOT,
     C_GLRT_FORCE,
     C_GLRT_RATE,
@@ -15,9 +17,21 @@ from .layout import (
     C_STILL_NORM,
     C_STILL_RATE,
     C_STRIDE,
+    D_ACTIVE,
+    D_COUNT,
+    D_EDGES,
+    D_FOOT,
+    D_HISTOGRAM,
+    D_LEAST,
+    D_SKIP,
+    D_STRIDE,
+    D_THRESHOLD,
+    D_VALUES,
     GLRT_LEFT,
+    HISTORY,
     LANDING,
     LEAVING,
+    N_DECIMATE,
     N_EPOCH,
     N_FOOT,
     N_LEAVE,
@@ -25,8 +39,10 @@ from .layout import (
     N_MIN_SWING,
     N_PHASE,
     N_RING,
+    N_SHORT_STANCE,
     N_START,
     N_STRIDE,
+    N_WALKING,
     N_WINDOW,
     RINGS,
     SAMPLE,
@@ -37,6 +53,11 @@ from .layout import (
     SWING,
     SWING_FALSE,
 )
+
+LOW, HIGH = 0.1, 0.6  # quantiles of the statistic that are of stances and of swings
+FIRST, RENEW = 48, 12  # values to the first threshold, and from one to the next
+CERTAIN_SWING = 1e4  # statistic that no standing foot has for long
+CLEAR = 0.25  # share of the threshold below which a short stance counts
 
 
 def glrt(w, n, foot):
@@ -77,11 +98,66 @@ def glrt(w, n, foot):
     return (force * w[C_GLRT_FORCE] + rate * w[C_GLRT_RATE]) / count
 
 
+def bin_of(w, statistic):
+    """Return the bin of a statistic: the first whose upper edge is above it."""
+    low = 0
+    high = BINS - 1
+    while low < high:
+        middle = (low + high) // 2
+        if statistic < w[D_EDGES + middle]:
+            high = middle
+        else:
+            low = middle + 1
+    return low
+
+
+def follow(w, n, foot, statistic):
+    """Take a statistic into the history of a walking foot, and renew the threshold."""
+    d = D_FOOT + foot * D_STRIDE
+    if statistic > CERTAIN_SWING:
+        w[d + D_ACTIVE] = n[N_WALKING]
+    if w[d + D_ACTIVE] <= 0.0:
+        return
+    w[d + D_ACTIVE] -= 1.0
+    w[d + D_SKIP] -= 1.0
+    if w[d + D_SKIP] > 0.0:
+        return
+    w[d + D_SKIP] = n[N_DECIMATE]
+    place = bin_of(w, statistic)
+    count = int(w[d + D_COUNT])
+    slot = d + D_VALUES + count % HISTORY
+    if count >= HISTORY:
+        w[d + D_HISTOGRAM + int(w[slot])] -= 1.0
+    w[slot] = place
+    w[d + D_HISTOGRAM + place] += 1.0
+    w[d + D_COUNT] = count + 1
+    if count >= FIRST and count % RENEW == 0:
+        known = min(count + 1, HISTORY)
+        low = quantile(w, d, LOW * known)
+        high = quantile(w, d, HIGH * known)
+        w[d + D_THRESHOLD] = w[D_EDGES + (low + high) // 2]
+
+
+def quantile(w, d, rank):
+    """Return the bin of the value with that rank in the history of a foot."""
+    total = 0.0
+    for k in range(BINS):
+        total += w[d + D_HISTOGRAM + k]
+        if total >= rank:
+            return k
+    return BINS - 1
+
+
 def detect(w, n, foot):
     """Advance the phase of ``foot`` by the newest sample; return (zero velocity, notice bits)."""
     statistic = glrt(w, n, foot)
     w[GLRT_LEFT + foot] = statistic
-    still = statistic < w[C_GLRT_THRESHOLD]
+    d = D_FOOT + foot * D_STRIDE
+    threshold = w[C_GLRT_THRESHOLD]
+    if w[C_ADAPTS] == 1.0:
+        follow(w, n, foot, statistic)
+        threshold = w[d + D_THRESHOLD]
+    still = statistic < threshold
     epoch = n[N_EPOCH]
     o = N_FOOT + foot * N_STRIDE
     phase = n[o + N_PHASE]
@@ -90,6 +166,7 @@ def detect(w, n, foot):
         if still:
             n[o + N_START] = epoch
             phase = LANDING
+            w[d + D_LEAST] = statistic
     elif phase == LANDING and not still:
         phase = SWING
         notice = STANCE_FALSE
@@ -99,9 +176,13 @@ def detect(w, n, foot):
     elif phase == LEAVING and still:
         phase = STANCE
         notice = SWING_FALSE
-    if phase == LANDING and epoch - n[o + N_START] + 1 >= n[N_MIN_STANCE]:
-        phase = STANCE
-        notice = STANCE_CONFIRMED
+    if phase == LANDING:
+        w[d + D_LEAST] = min(w[d + D_LEAST], statistic)
+        length = epoch - n[o + N_START] + 1
+        clear = w[C_ADAPTS] == 1.0 and w[d + D_LEAST] < CLEAR * threshold
+        if length >= n[N_MIN_STANCE] or (clear and length >= n[N_SHORT_STANCE]):
+            phase = STANCE
+            notice = STANCE_CONFIRMED
     elif phase == LEAVING and epoch - n[o + N_LEAVE] + 1 >= n[N_MIN_SWING]:
         phase = SWING
         notice = STANCE_ENDED

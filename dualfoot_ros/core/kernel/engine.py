@@ -11,10 +11,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from . import covariance, detector, epoch, measurement_update, strapdown, turn
+from . import considered_update, covariance, detector, epoch, measurement_update, strapdown, turn
 
-MODULES = (strapdown, covariance, measurement_update, detector, epoch, turn)
-ENTRIES = ("advance", "rerun", "restore", "set_flags", "emit", "collect", "correct", "turn")
+MODULES = (strapdown, covariance, considered_update, measurement_update, detector, epoch, turn)
+ENTRIES = (
+    "advance",
+    "rerun",
+    "restore",
+    "set_flags",
+    "emit",
+    "collect",
+    "correct",
+    "correct_considering",
+    "turn",
+)
 
 
 @dataclass(frozen=True)
@@ -29,6 +39,7 @@ class Engine:
     emit: Callable[..., Any]
     collect: Callable[..., Any]
     correct: Callable[..., Any]
+    correct_considering: Callable[..., Any]
     turn: Callable[..., Any]
 
 

@@ -10,6 +10,12 @@ import math
 from .covariance import propagate_foot
 from .detector import detect
 from .layout import (
+    A_COUNT,
+    A_FOOT,
+    A_SECONDS,
+    A_SQUARES,
+    A_STRIDE,
+    A_SUM,
     C_WATCH,
     E_ATT,
     E_POS,
@@ -26,6 +32,7 @@ from .layout import (
     N_STILL,
     N_STRIDE,
     NOTICE_SHIFT,
+    NOTICE_STOOD,
     NOTICE_WATCH,
     O_COV_ATT,
     O_COV_POS,
@@ -48,6 +55,7 @@ from .layout import (
     ROW,
     SAMPLE,
     STATE,
+    STOOD_S,
     VEL,
     Z_LEFT,
     ZUPT_INFO,
@@ -145,6 +153,9 @@ def advance(w, n, dts, samples, start, stop, out):
             flags += 2 + 2 * FLAG_STILL * stands(n, 1)
         n[N_FLAGS + i] = flags
         n[N_NOTICE] = left_notice | (right_notice << NOTICE_SHIFT)
+        for foot in range(2):
+            if collect_stand(w, foot, (flags // FLAG_STILL >> foot) & 1, o):
+                n[N_NOTICE] = n[N_NOTICE] | (NOTICE_STOOD << foot)
         filter_epoch(w, n, epoch)
         if squared_distance(w) > w[C_WATCH]:
             n[N_NOTICE] = n[N_NOTICE] | NOTICE_WATCH
@@ -152,6 +163,26 @@ def advance(w, n, dts, samples, start, stop, out):
         if n[N_NOTICE] != 0:
             return k + 1
     return stop
+
+
+def collect_stand(w, foot, standing, o):
+    """Take the sample at ``o`` into the window of a standing foot; return whether it is full.
+
+    Whoever reads a full window sets its length to zero.
+    """
+    a = A_FOOT + foot * A_STRIDE
+    if standing == 0 or w[a + A_SECONDS] == 0.0:
+        for k in range(A_STRIDE):
+            w[a + k] = 0.0
+    if standing == 0:
+        return False
+    w[a + A_SECONDS] += w[o]
+    w[a + A_COUNT] += 1.0
+    for k in range(3):
+        rate = w[o + 4 + 6 * foot + k]
+        w[a + A_SUM + k] += rate
+        w[a + A_SQUARES + k] += rate * rate
+    return w[a + A_SECONDS] >= STOOD_S
 
 
 def stands(n, foot):

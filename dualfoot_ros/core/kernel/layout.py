@@ -6,7 +6,7 @@ ring of snapshots.  All offsets are compile-time constants but for the two rings
 """
 
 # --- state: what a snapshot copies -------------------------------------------------------------
-FOOT = 32  # stride from the left foot's nominal state to the right foot's
+FOOT = 40  # stride from the left foot's nominal state to the right foot's
 POS = 0  # position, m
 VEL = 3  # velocity, m/s
 ROT = 6  # R_nb, body to navigation, row-major 3x3
@@ -15,6 +15,8 @@ BA = 18  # accelerometer bias, m/s^2
 ALPHA = 21  # previous rotation increment, rad
 GAMMA = 24  # previous velocity increment, m/s
 RATE = 27  # last bias-corrected angular rate, rad/s
+FORCE = 30  # last bias-corrected specific force, m/s^2
+FOLLOWS = 33  # 1 when the sample before was the one before in time, 0 at the start and after a gap
 
 ROW = 16  # covariance blocks are 15 rows of 15, padded to 16
 BLOCK = 15 * ROW
@@ -26,6 +28,9 @@ STATE = PLR + BLOCK  # size of a snapshot
 # error state of one foot, eq. (4): position, velocity, attitude, gyro bias, accelerometer bias
 E_POS, E_VEL, E_ATT, E_BG, E_BA = 0, 3, 6, 9, 12
 ERRORS = 15  # error states of one foot
+CONSIDERED_FOOT = 4  # of them that a zero-velocity update takes as known: heading, gyro bias
+CONSIDERED = 10  # most states that a gain takes as known
+KNOW_ALL, KNOW_COMMON, KEEP_PLACE = 0, 1, 2  # what an update leaves alone
 ROWS_POS = ROW * E_POS  # from the start of a covariance block to the rows of each of them
 ROWS_VEL = ROW * E_VEL
 ROWS_ATT = ROW * E_ATT
@@ -47,14 +52,41 @@ C_GLRT_RATE = C_GRAVITY + 9  # 1 / sigma_w^2
 C_GLRT_THRESHOLD = C_GRAVITY + 10
 C_WATCH = C_GRAVITY + 11  # squared distance of the feet beyond which a method wants to know, m^2
 C_ZUPT_STILL_VAR = C_GRAVITY + 12  # (m/s)^2, once a stance has lasted
+C_BIAS_KNOWN_VAR = C_GRAVITY + 15  # (rad/s)^2, up to which a gyro bias counts as known
+C_ADAPTS = C_GRAVITY + 14  # 1 when the threshold follows the walk
+C_ZUPT_CONSIDERS = C_GRAVITY + 13  # 1 when a zero-velocity update takes heading and bias as known
 C_FOOT = C_GRAVITY + 16  # then per foot:
 C_STRIDE = 8
 C_LEVER = 0  # sensor to pivot of the foot, body frame, m
 C_STILL_RATE = 3  # standstill angular rate, rad/s
 C_STILL_NORM = 6  # standstill specific force norm, m/s^2
+C_INCREMENTS = 7  # what the samples are, one of:
+AVERAGED, COMPENSATED, SAMPLED = 0.0, 1.0, 2.0
+
+# --- the walk's own statistic, for the threshold of the detector; per foot -----------------------
+BINS = 128  # of the statistic, 20 a decade
+HISTORY = 256  # values kept, some four seconds
+D_FOOT = C_FOOT + 2 * C_STRIDE
+D_HISTOGRAM = 0  # count of values in each bin
+D_VALUES = BINS  # bin of each value, a ring
+D_COUNT = BINS + HISTORY  # values taken
+D_SKIP = D_COUNT + 1  # samples until the next value is taken
+D_ACTIVE = D_COUNT + 2  # samples for which the foot still counts as walking
+D_THRESHOLD = D_COUNT + 3  # threshold in use
+D_LEAST = D_COUNT + 4  # least statistic of the candidate stance
+D_STRIDE = D_COUNT + 8
+D_EDGES = D_FOOT + 2 * D_STRIDE  # upper edge of each bin
+
+# --- samples of a standing foot, for its gyro bias; per foot -------------------------------------
+A_FOOT = D_EDGES + BINS
+A_SECONDS = 0  # length of the window so far
+A_COUNT = 1  # samples in it
+A_SUM = 2  # of the angular rate, 3
+A_SQUARES = 5  # 3
+A_STRIDE = 8
 
 # --- scratch -------------------------------------------------------------------------------------
-S_A = C_FOOT + 2 * C_STRIDE  # a 15x16 block
+S_A = A_FOOT + 2 * A_STRIDE  # a 15x16 block
 S_B = S_A + BLOCK  # another
 SIDE = ROW  # error state of one foot in a vector of both: 15 and one pad
 JOINT = 2 * SIDE  # error state of both feet, left then right
@@ -63,17 +95,24 @@ S_G = S_B + BLOCK  # P H', a column of JOINT a row of the measurement
 S_S = S_G + ROWS_MOST * JOINT  # innovation covariance, 3x3
 S_Y = S_S + ROWS_MOST * ROWS_MOST  # innovation
 S_H = S_Y + ROWS_MOST  # measurement matrix, rows of JOINT
-S_DX = S_H + ROWS_MOST * JOINT  # estimated error state of both feet
+S_K = S_H + ROWS_MOST * JOINT  # gain, a column of JOINT a row of the measurement
+S_PC = S_K + ROWS_MOST * JOINT  # P times each considered state, columns of JOINT
+S_CC = S_PC + CONSIDERED * JOINT  # covariance of the considered states, and its factor
+S_GC = S_CC + CONSIDERED * CONSIDERED  # P H' of the considered states, 3 each
+S_D = S_GC + CONSIDERED * ROWS_MOST  # small matrices on the way
+S_DX = S_D + CONSIDERED * ROWS_MOST  # estimated error state of both feet
 S_CDT = S_DX + JOINT  # R_nb dt, 3x3
 S_SF = S_CDT + 9  # velocity increment in navigation axes, 3
 S_ROTATION = S_SF + 3  # a 3x3 rotation increment
 S_TMP = S_ROTATION + 9  # a 3x3
+S_ALPHA = S_TMP + 9  # rotation increment of the interval, rad
+S_GAMMA = S_ALPHA + 3  # velocity increment of the interval, m/s
 
 # --- what the last epoch was, for the output row ------------------------------------------------
 ZUPT_INFO = 13  # innovation 3, then:
 Z_S = 3  # S, 3x3
 Z_NIS = 12
-Z_LEFT = S_TMP + 9
+Z_LEFT = S_GAMMA + 3
 Z_RIGHT = Z_LEFT + ZUPT_INFO
 GLRT_LEFT = Z_RIGHT + ZUPT_INFO
 GLRT_RIGHT = GLRT_LEFT + 1
@@ -91,7 +130,10 @@ N_MIN_SWING = 4  # samples
 N_NOTICE = 5  # bits below, set by an epoch that needs the tracker's attention
 N_OLDEST = 6  # oldest epoch whose snapshot is valid
 N_STILL = 7  # samples after which a stance is a standstill
-N_FOOT = 8  # then per foot:
+N_SHORT_STANCE = 8  # samples of a short stance, if it is clear
+N_DECIMATE = 9  # samples to one value of the statistic's history
+N_WALKING = 10  # samples for which a foot counts as walking after a swing
+N_FOOT = 16  # then per foot:
 N_STRIDE = 8
 N_PHASE = 0  # one of the phases below
 N_START = 1  # first epoch of the (candidate) stance
@@ -105,6 +147,8 @@ SWING, LANDING, STANCE, LEAVING = 0, 1, 2, 3
 STANCE_FALSE, STANCE_CONFIRMED, SWING_FALSE, STANCE_ENDED = 1, 2, 4, 8
 NOTICE_SHIFT = 4
 NOTICE_WATCH = 256  # the feet are farther apart than the method allows
+NOTICE_STOOD = 512  # a window of a standing left foot is complete; twice that for the right
+STOOD_S = 0.75  # length of that window
 
 # --- output row ----------------------------------------------------------------------------------
 O_FOOT = 54  # stride from left to right

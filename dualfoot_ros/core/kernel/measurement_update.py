@@ -10,15 +10,26 @@ them, truth minus estimate, so they are fed back with the other sign.
 
 import math
 
+from .considered_update import (
+    apply_gain,
+    consider_all,
+    consider_common,
+    considered_state,
+    considering_gain,
+)
 from .layout import (
     BA,
     BG,
+    C_BIAS_KNOWN_VAR,
     C_FOOT,
     C_LEVER,
     C_STRIDE,
+    C_ZUPT_CONSIDERS,
     C_ZUPT_RATE_VAR,
     C_ZUPT_STILL_VAR,
     C_ZUPT_VAR,
+    CONSIDERED_FOOT,
+    DIAGONAL,
     E_ATT,
     E_BA,
     E_BG,
@@ -26,6 +37,8 @@ from .layout import (
     E_VEL,
     FOOT,
     JOINT,
+    KNOW_ALL,
+    KNOW_COMMON,
     PLL,
     PLR,
     POS,
@@ -38,6 +51,7 @@ from .layout import (
     S_DX,
     S_G,
     S_H,
+    S_K,
     S_S,
     S_Y,
     SIDE,
@@ -119,6 +133,57 @@ def correct_standing(w, rows, foot):
                 o = S_G + other + j
                 cross = PLR + ROW * i + j if foot == 0 else PLR + ROW * j + i
                 w[cross] -= a0 * w[o] + a1 * w[o + JOINT] + a2 * w[o + 2 * JOINT]
+    feed_back(w)
+    return nis
+
+
+def bias_known(w, foot):
+    """Return whether the gyro bias of ``foot`` is known better than a stance could tell it."""
+    block = PLL if foot == 0 else PRR
+    largest = 0.0
+    for i in range(3):
+        largest = max(largest, w[block + DIAGONAL * (E_BG + i)])
+    return largest <= w[C_BIAS_KNOWN_VAR]
+
+
+def correct_stance(w, rows, foot, still):
+    """Update with a gain that takes heading and gyro bias as known; return the NIS.
+
+    ``still`` leaves the position of the standing ``foot`` and all of the other foot alone as well.
+    """
+    nis = considering_gain(w, rows, consider_all(w, rows))
+    for k in range(rows):
+        for side in range(2):
+            for c in range(CONSIDERED_FOOT):
+                w[S_K + JOINT * k + SIDE * side + considered_state(c)] = 0.0
+        if still:
+            for j in range(SIDE):
+                w[S_K + JOINT * k + SIDE * (1 - foot) + j] = 0.0
+            for j in range(E_VEL):
+                w[S_K + JOINT * k + SIDE * foot + j] = 0.0
+    apply_gain(w, rows)
+    feed_back(w)
+    return nis
+
+
+def correct_considering(w, rows, kind):
+    """Update with a gain that leaves some states alone; return the NIS.
+
+    ``kind`` KNOW_ALL takes headings and gyro biases as known, KNOW_COMMON the biases and what the
+    headings have in common, KEEP_PLACE corrects neither position nor heading.
+    """
+    if kind == KNOW_ALL:
+        nis = considering_gain(w, rows, consider_all(w, rows))
+    elif kind == KNOW_COMMON:
+        nis = considering_gain(w, rows, consider_common(w, rows))
+    else:
+        nis = considering_gain(w, rows, 0)
+        for k in range(rows):
+            for side in range(2):
+                w[S_K + JOINT * k + SIDE * side + E_ATT + 2] = 0.0
+                for j in range(3):
+                    w[S_K + JOINT * k + SIDE * side + E_POS + j] = 0.0
+    apply_gain(w, rows)
     feed_back(w)
     return nis
 
@@ -263,7 +328,9 @@ def zupt(w, foot, still=False):
         w[info + i] = w[S_Y + i]
     for i in range(ROWS_MOST * ROWS_MOST):
         w[info + Z_S + i] = w[S_S + i]
-    if still:
+    if w[C_ZUPT_CONSIDERS] == 1.0 and bias_known(w, foot):
+        w[info + Z_NIS] = correct_stance(w, 3, foot, still)
+    elif still:
         w[info + Z_NIS] = correct_standing(w, 3, foot)
     else:
         w[info + Z_NIS] = correct(w, 3)

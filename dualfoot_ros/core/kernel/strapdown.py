@@ -10,16 +10,25 @@ from .layout import (
     ALPHA,
     BA,
     BG,
+    C_FOOT,
     C_GRAVITY,
+    C_INCREMENTS,
+    C_STRIDE,
+    COMPENSATED,
+    FOLLOWS,
     FOOT,
+    FORCE,
     GAMMA,
     POS,
     RATE,
     ROT,
+    S_ALPHA,
     S_CDT,
+    S_GAMMA,
     S_ROTATION,
     S_SF,
     S_TMP,
+    SAMPLED,
     VEL,
 )
 
@@ -99,6 +108,29 @@ def rotate_navigation(w, foot):
         w[r + i] = w[S_TMP + i]
 
 
+def increments(w, foot, dt, sample):
+    """Write the rotation and velocity increments of an interval to S_ALPHA and S_GAMMA.
+
+    ``sample`` is the index in ``w`` of specific force (m/s^2) and angular rate (rad/s), 3 + 3.
+    Values held over the interval are taken times dt; values at the instants ("sampled") by the
+    trapezoid with those before.
+    """
+    o = foot * FOOT
+    trapezoid = w[C_FOOT + foot * C_STRIDE + C_INCREMENTS] == SAMPLED and w[o + FOLLOWS] == 1.0
+    for i in range(3):
+        force = w[sample + i] - w[o + BA + i]
+        rate = w[sample + 3 + i] - w[o + BG + i]
+        if trapezoid:
+            w[S_GAMMA + i] = 0.5 * (w[o + FORCE + i] + force) * dt
+            w[S_ALPHA + i] = 0.5 * (w[o + RATE + i] + rate) * dt
+        else:
+            w[S_GAMMA + i] = force * dt
+            w[S_ALPHA + i] = rate * dt
+        w[o + FORCE + i] = force
+        w[o + RATE + i] = rate
+    w[o + FOLLOWS] = 1.0
+
+
 def mechanize(w, foot, dt, sample):
     """Advance position, velocity and attitude of ``foot`` by one sample, eqs (1)-(3).
 
@@ -107,27 +139,37 @@ def mechanize(w, foot, dt, sample):
     attitude before the step, for the covariance.
     """
     o = foot * FOOT
-    # increments over the interval: gamma of velocity, alpha of rotation
-    gx = (w[sample] - w[o + BA]) * dt
-    gy = (w[sample + 1] - w[o + BA + 1]) * dt
-    gz = (w[sample + 2] - w[o + BA + 2]) * dt
-    wx = w[sample + 3] - w[o + BG]
-    wy = w[sample + 4] - w[o + BG + 1]
-    wz = w[sample + 5] - w[o + BG + 2]
-    ax = wx * dt
-    ay = wy * dt
-    az = wz * dt
+    increments(w, foot, dt, sample)
+    # gamma_k and alpha_k, and those of the interval before
+    gx = w[S_GAMMA]
+    gy = w[S_GAMMA + 1]
+    gz = w[S_GAMMA + 2]
+    ax = w[S_ALPHA]
+    ay = w[S_ALPHA + 1]
+    az = w[S_ALPHA + 2]
     px = w[o + ALPHA]
     py = w[o + ALPHA + 1]
     pz = w[o + ALPHA + 2]
     qx = w[o + GAMMA]
     qy = w[o + GAMMA + 1]
     qz = w[o + GAMMA + 2]
-    # v_sf of eq. (2): rotation within the interval, and the two-sample sculling term
-    t = 1.0 / 12.0
-    sx = gx + 0.5 * (ay * gz - az * gy) + t * (py * gz - pz * gy + qy * az - qz * ay)
-    sy = gy + 0.5 * (az * gx - ax * gz) + t * (pz * gx - px * gz + qz * ax - qx * az)
-    sz = gz + 0.5 * (ax * gy - ay * gx) + t * (px * gy - py * gx + qx * ay - qy * ax)
+    kind = w[C_FOOT + foot * C_STRIDE + C_INCREMENTS]
+    if kind == COMPENSATED:
+        # the sensor has compensated coning and sculling: held constant, its rate and force give
+        # its increments, so v_sf = [I + (1 - cos a)/a^2 [alpha x] + (1 - sin a/a)/a^2 [alpha x]^2]
+        # gamma, and nothing goes across samples
+        t = 0.0
+        held_velocity(w, ax, ay, az, gx, gy, gz)
+        sx = w[S_TMP]
+        sy = w[S_TMP + 1]
+        sz = w[S_TMP + 2]
+    else:
+        # v_sf of eq. (2): rotation within the interval, and the two-sample sculling term; twice of
+        # it where trapezoids cut the corners of the motion, by dt^2 / 12 of its second derivative
+        t = 1.0 / 6.0 if kind == SAMPLED else 1.0 / 12.0
+        sx = gx + 0.5 * (ay * gz - az * gy) + t * (py * gz - pz * gy + qy * az - qz * ay)
+        sy = gy + 0.5 * (az * gx - ax * gz) + t * (pz * gx - px * gz + qz * ax - qx * az)
+        sz = gz + 0.5 * (ax * gy - ay * gx) + t * (px * gy - py * gx + qx * ay - qy * ax)
     for i in range(9):
         w[S_CDT + i] = w[o + ROT + i] * dt
     for i in range(3):  # R_nb of the epoch before, as in eq. (2)
@@ -154,6 +196,25 @@ def mechanize(w, foot, dt, sample):
     w[o + GAMMA] = gx
     w[o + GAMMA + 1] = gy
     w[o + GAMMA + 2] = gz
-    w[o + RATE] = wx
-    w[o + RATE + 1] = wy
-    w[o + RATE + 2] = wz
+
+
+def held_velocity(w, ax, ay, az, gx, gy, gz):
+    """Write to S_TMP the velocity increment of force and rate that are constant in the body.
+
+    (ax, ay, az) rad is the rotation and (gx, gy, gz) m/s the force times the interval; the result
+    is in the axes at the start of the interval.
+    """
+    q = ax * ax + ay * ay + az * az
+    if q < 0.49:  # series: the same bits on every platform
+        b = 0.5 - q / 24.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0)))
+        c = (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (1.0 - q / 110.0)))) / 6.0
+    else:
+        r = math.sqrt(q)
+        b = (1.0 - math.cos(r)) / q
+        c = (1.0 - math.sin(r) / r) / q
+    ux = ay * gz - az * gy
+    uy = az * gx - ax * gz
+    uz = ax * gy - ay * gx
+    w[S_TMP] = gx + b * ux + c * (ay * uz - az * uy)
+    w[S_TMP + 1] = gy + b * uy + c * (az * ux - ax * uz)
+    w[S_TMP + 2] = gz + b * uz + c * (ax * uy - ay * ux)

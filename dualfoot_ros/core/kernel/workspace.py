@@ -55,7 +55,7 @@ class Workspace:
         """Get over ``gap_s`` s without data: unknown velocity, a position that may have moved."""
         for foot in range(2):
             o, block = foot * lay.FOOT, lay.PLL if foot == 0 else lay.PRR
-            for item, size in ((lay.VEL, 3), (lay.ALPHA, 3), (lay.GAMMA, 3)):
+            for item, size in ((lay.VEL, 3), (lay.ALPHA, 3), (lay.GAMMA, 3), (lay.FOLLOWS, 1)):
                 self.w[o + item : o + item + size] = 0.0
             rows = self.w[block : block + lay.BLOCK].reshape(15, lay.ROW)
             cross = self.w[lay.PLR : lay.PLR + lay.BLOCK].reshape(15, lay.ROW)

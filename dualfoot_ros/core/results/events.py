@@ -18,6 +18,7 @@ class EventKind(StrEnum):
     """What can happen at an epoch."""
 
     ALIGNED = "aligned"
+    STOOD = "stood"
     STANCE_START = "stance_start"
     STANCE_END = "stance_end"
     ZUPT = "zupt"

@@ -55,18 +55,40 @@ NO_DETAILS = Details()
 
 @dataclass(frozen=True)
 class Levelled:
-    """What a standstill gave: gyro bias (rad/s) and specific force norm (m/s^2) by foot."""
+    """What a track starts from: gyro bias (rad/s) and specific force norm (m/s^2) by foot.
 
+    ``kind`` is the name of a `StartKind`, ``bias_std`` the standard deviation of either bias.
+    """
+
+    kind: str
     gyro_bias: Mapping[str, list[float]]
     gravity: Mapping[str, float]
+    bias_std: float
 
     def to_dict(self) -> dict[str, Any]:
         """Return one value a foot and quantity."""
-        plain: dict[str, Any] = {}
+        plain: dict[str, Any] = {"start": self.kind, "gyro_bias_std": self.bias_std}
         for foot, bias in self.gyro_bias.items():
             plain[f"{foot}_gyro_bias"] = bias
             plain[f"{foot}_gravity"] = self.gravity[foot]
         return plain
+
+
+@dataclass(frozen=True)
+class StandBias:
+    """The gyro bias (3,) rad/s that a stand of ``seconds`` s gave, and its deviation, rad/s."""
+
+    gyro_bias: list[float]
+    gyro_bias_std: float
+    seconds: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything by name."""
+        return {
+            "gyro_bias": self.gyro_bias,
+            "gyro_bias_std": self.gyro_bias_std,
+            "seconds": self.seconds,
+        }
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -81,10 +82,13 @@ class Update:
     """The result of one pair: what phase the tracker is in, the estimates, the events.
 
     While the phase is "aligning" there is no estimate and ``left`` and ``right`` are None.  It is
-    a value: nothing of it changes with the pairs that follow.
+    a value: nothing of it changes with the pairs that follow.  Where pairs had to wait for the
+    start of the track, ``earlier`` of the first update with an estimate has theirs.
     """
 
-    __slots__ = ("_blocks", "_headings", "_noted", "phase", "refused", "row", "stamp_ns")
+    __slots__ = (
+        "_blocks", "_headings", "_noted", "earlier", "phase", "refused", "row", "stamp_ns",
+    )  # fmt: skip
 
     def __init__(
         self,
@@ -100,6 +104,12 @@ class Update:
         """Keep what was computed; ``blocks`` is the covariance as `Workspace.blocks` gives it."""
         self.stamp_ns, self.phase, self.refused, self.row = stamp_ns, phase, refused, row
         self._noted, self._blocks, self._headings = events, blocks, headings
+        self.earlier: tuple[Update, ...] = ()
+
+    def after(self, earlier: Sequence[Update]) -> Update:
+        """Return the update with those of the pairs that had waited for the start of the track."""
+        self.earlier = tuple(earlier)
+        return self
 
     @property
     def events(self) -> tuple[Event, ...]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SeriesError
+from .increments import Increments
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -25,6 +26,7 @@ class ImuSeries:
     specific_force : (N, 3) m/s^2, what the accelerometer reads (+g upwards when standing)
     angular_rate : (N, 3) rad/s
     magnetic_field : (N, 3) T, or None
+    increments : what the samples are, None where their source does not say
 
     Raises
     ------
@@ -36,6 +38,7 @@ class ImuSeries:
     specific_force: FloatArray
     angular_rate: FloatArray
     magnetic_field: FloatArray | None = None
+    increments: Increments | None = None
 
     def __post_init__(self) -> None:
         """Bring every array to its type and check that the shapes agree."""

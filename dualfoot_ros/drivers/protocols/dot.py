@@ -1,8 +1,9 @@
 """Xsens (Movella) DOT, live: the measurement payloads of its BLE service.
 
 After the Movella DOT BLE Service Specification (XD0506P), section 3: one notification is one
-sample, little-endian, microseconds u32 first; acceleration m/s^2, angular velocity deg/s.  The
-device pads notifications with zeros, so the length does not tell the mode.
+sample, little-endian, microseconds u32 first; acceleration m/s^2, angular velocity deg/s, both
+from increments that the device has compensated at 800 Hz (DOT user manual, 4.2).  The device pads
+notifications with zeros, so the length does not tell the mode.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, Refusal, Vector, parameter
+from ...core import DEGREE, Increments, Refusal, Vector, parameter
 from ..sample import Sample, scaled
 from .decoder import FieldConfig, append_if_finite
 
@@ -78,7 +79,14 @@ class DotDecoder:
         values = MOTION.unpack_from(data, self._payload.motion_at)
         force, rate = scaled(values[:3], 1.0), scaled(values[3:], DEGREE)
         sample = Sample(
-            arrival_ns, force, rate, ticks, 1000, 32, magnetic_field=self._read_field(data)
+            arrival_ns,
+            force,
+            rate,
+            ticks,
+            1000,
+            32,
+            magnetic_field=self._read_field(data),
+            increments=Increments.COMPENSATED,
         )
         append_if_finite(self.counters, samples, sample)
         return samples

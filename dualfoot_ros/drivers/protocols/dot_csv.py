@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, Parameters, Refusal, Vector, parameter
+from ...core import DEGREE, Increments, Parameters, Refusal, Vector, parameter
 from ..sample import Sample, scaled
 from .decoder import PacketCounter, append_if_finite
 from .framing import DelimitedFramer
@@ -103,6 +103,7 @@ class DotCsvDecoder:
             32,
             magnetic_field=field,
             counter=counter,
+            increments=Increments.COMPENSATED,
         )
         append_if_finite(self.counters, samples, sample)
 

@@ -11,7 +11,7 @@ from binascii import crc_hqx
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import Parameters, Refusal, Vector
+from ...core import Increments, Parameters, Refusal, Vector
 from ..sample import Sample, scaled
 from . import cobs
 from .decoder import PacketCounter, append_if_finite
@@ -28,7 +28,8 @@ LAYOUTS = {1: FLOATS, 2: SCALED}
 LAYOUT_BITS = 0x0F
 WITH_TEMPERATURE = 0x10
 WITH_FIELD = 0x20
-KNOWN_BITS = LAYOUT_BITS | WITH_TEMPERATURE | WITH_FIELD
+KINDS = (None, Increments.AVERAGED, Increments.SAMPLED, Increments.COMPENSATED)
+KIND_SHIFT = 6  # to the two bits that number them
 
 CENTIDEGREE = 0.01  # degrees Celsius
 TENTH_MICROTESLA = 1e-7  # T
@@ -87,7 +88,7 @@ class McuDecoder:
     def _decode(self, content: bytes, arrival_ns: int, samples: list[Sample]) -> None:
         kind, counter, device_us = HEADER.unpack_from(content)
         layout = LAYOUTS.get(kind & LAYOUT_BITS)
-        if layout is None or kind & ~KNOWN_BITS:
+        if layout is None:
             self.counters[Refusal.OTHER] += 1
             return
         if len(content) != HEADER.size + layout.size + _extra_size(kind):
@@ -96,7 +97,8 @@ class McuDecoder:
         force, rate = _read_motion(layout, layout.unpack_from(content, HEADER.size))
         temperature, field = _read_extras(kind, content, HEADER.size + layout.size)
         self._packets.count(counter)
-        sample = Sample(arrival_ns, force, rate, device_us, 1000, 32, temperature, field, counter)
+        extras = temperature, field, counter, KINDS[kind >> KIND_SHIFT]
+        sample = Sample(arrival_ns, force, rate, device_us, 1000, 32, *extras)
         append_if_finite(self.counters, samples, sample)
 
 

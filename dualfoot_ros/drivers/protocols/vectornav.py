@@ -3,6 +3,10 @@
 After the VN-100 User Manual (UM001), chapter "Serial output message format": sync ``0xFA``, one
 bit for each group of fields, u16 masks of the fields in every group, the fields back to back,
 CRC-16 (polynomial 0x1021, start 0) sent high byte first.  All else is little-endian.
+
+Increments (DeltaTheta, DeltaVel) are better than rates and used where they are sent; register 82
+must leave them in the body frame, its default.  The manual does not name the axes of DeltaVel;
+they are taken to be those at the start of the interval, as a fully coupled integral has them.
 """
 
 from __future__ import annotations
@@ -13,13 +17,15 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import lru_cache
 
-from ...core import Parameters, Refusal, Vector, parameter
+from ...core import DEGREE, Increments, Parameters, Refusal, Vector, parameter
 from ..sample import Sample, scaled
 from .decoder import append_if_finite
+from .delta import held_push, per_second
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
 
 SYNC = 0xFA
 MAX_FRAME = 600
+LONGEST_S = 1.0  # an interval beyond is none
 GAUSS = 1e-4  # T
 VECTOR = struct.Struct("<3f")
 NUMBER = struct.Struct("<f")
@@ -40,11 +46,15 @@ Fields beyond have no fixed size; a message that holds one cannot be measured an
 """
 
 Field = tuple[int, int]  # group and bit, from zero
+Motion = tuple[Vector, Vector]  # specific force, angular rate
 TIME: tuple[Field, ...] = ((0, 0), (1, 0))
 IMU: Field = (0, 9)  # uncompensated acceleration, then angular rate
 MAGNETIC_PRESSURE: Field = (0, 10)  # magnetic field, temperature, pressure
 UNCOMPENSATED: tuple[tuple[Field, ...], tuple[Field, ...]] = (((2, 2),), ((2, 3),))
 COMPENSATED: tuple[tuple[Field, ...], tuple[Field, ...]] = (((0, 8), (2, 9)), ((0, 5), (2, 10)))
+DELTA: Field = (0, 11)  # interval, rotation, change of velocity
+DELTA_THETA: Field = (2, 6)  # interval, rotation
+DELTA_VELOCITY: Field = (2, 7)
 TEMPERATURE: Field = (2, 4)
 MOTION_GROUPS = (0, 2)  # common and IMU
 MAGNETIC: tuple[Field, ...] = ((2, 1), (2, 8))
@@ -105,13 +115,20 @@ class VectorNavDecoder:
             (STARTUP.unpack_from(frame, offsets[f])[0] for f in TIME if f in offsets), None
         )
         field = _read_field(frame, offsets)
-        sample = Sample(arrival_ns, *motion, time, 1, 64, self._temperature, field)
+        force, rate, kind = motion
+        sample = Sample(arrival_ns, force, rate, time, 1, 64, self._temperature, field, None, kind)
         append_if_finite(self.counters, samples, sample)
 
-    def _motion(self, frame: bytes, offsets: dict[Field, int]) -> tuple[Vector, Vector] | None:
-        """Return specific force and angular rate of the preferred kind, else of the other."""
+    def _motion(
+        self, frame: bytes, offsets: dict[Field, int]
+    ) -> tuple[Vector, Vector, Increments] | None:
+        """Return force, rate and their kind: increments, else the preferred rates, else others."""
+        increments = _read_increments(frame, offsets)
+        if increments is not None:
+            return *increments, Increments.COMPENSATED
         raw, own = _read_raw(frame, offsets), _read_vectors(frame, offsets, COMPENSATED)
-        return (raw or own) if self._uncompensated else (own or raw)
+        rates = (raw or own) if self._uncompensated else (own or raw)
+        return None if rates is None else (*rates, Increments.SAMPLED)
 
 
 def probe(buffer: bytearray, at: int) -> int:
@@ -168,7 +185,22 @@ def _offsets(frame: bytes) -> dict[Field, int]:
     return offsets
 
 
-def _read_raw(frame: bytes, offsets: dict[Field, int]) -> tuple[Vector, Vector] | None:
+def _read_increments(frame: bytes, offsets: dict[Field, int]) -> Motion | None:
+    """Return the force and rate that, held, give the device's increments; None without them."""
+    theta_at, push_at = offsets.get(DELTA_THETA), offsets.get(DELTA_VELOCITY)
+    if DELTA in offsets:
+        theta_at, push_at = offsets[DELTA], offsets[DELTA] + NUMBER.size + VECTOR.size
+    if theta_at is None or push_at is None:
+        return None
+    (interval_s,) = NUMBER.unpack_from(frame, theta_at)
+    if not 0.0 < interval_s < LONGEST_S:
+        return None
+    rotation = scaled(VECTOR.unpack_from(frame, theta_at + NUMBER.size), DEGREE)
+    push = held_push(rotation, VECTOR.unpack_from(frame, push_at))
+    return per_second(push, interval_s), per_second(rotation, interval_s)
+
+
+def _read_raw(frame: bytes, offsets: dict[Field, int]) -> Motion | None:
     if IMU in offsets:
         at = offsets[IMU]
         return VECTOR.unpack_from(frame, at), VECTOR.unpack_from(frame, at + VECTOR.size)

@@ -14,7 +14,7 @@ from functools import reduce
 from operator import xor
 from typing import NamedTuple
 
-from ...core import Parameters, Refusal, Vector
+from ...core import Increments, Parameters, Refusal, Vector
 from ..sample import Sample, scaled
 from .decoder import append_if_finite
 from .framing import DelimitedFramer
@@ -100,6 +100,7 @@ class VectorNavAsciiDecoder:
             _vector(values, kind.rate),
             temperature=None if kind.temperature is None else values[kind.temperature],
             magnetic_field=scaled(_vector(values, kind.field), GAUSS),
+            increments=Increments.SAMPLED,
         )
         append_if_finite(self.counters, samples, sample)
 

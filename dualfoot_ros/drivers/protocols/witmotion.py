@@ -15,7 +15,7 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, STANDARD_GRAVITY, Parameters, Refusal, Vector, parameter
+from ...core import DEGREE, STANDARD_GRAVITY, Increments, Parameters, Refusal, Vector, parameter
 from ..sample import Sample, scaled
 from .decoder import append_if_finite
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
@@ -138,6 +138,7 @@ class WitMotionDecoder:
             64,
             self._temperature,
             self._field,
+            increments=Increments.SAMPLED,
         )
         self._force = self._ticks = None
         append_if_finite(self.counters, samples, sample)

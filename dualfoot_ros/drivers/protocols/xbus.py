@@ -4,6 +4,10 @@ After the maker's MT Low Level Communication Protocol.  A message is preamble ``
 identifier, message identifier, length, data, and a byte that makes the sum of all but the
 preamble zero.  The data of MTData2 is a row of items: identifier u16, length u8, values, all
 big-endian; the last bits of the identifier say how numbers are written.
+
+DeltaQ and DeltaV are the increments of the device, compensated for coning and sculling; RateOfTurn
+and Acceleration come from the same by inverse strapdown integration, so Acceleration is DeltaV per
+second (MTi reference manual 4.3, DOT user manual 4.2).  The increments have the full resolution.
 """
 
 from __future__ import annotations
@@ -13,9 +17,10 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ...core import Refusal, Vector, parameter
+from ...core import Increments, Refusal, Vector, parameter
 from ..sample import Sample, scaled
 from .decoder import FieldConfig, PacketCounter, append_if_finite
+from .delta import OutputInterval, per_second, rotation_vector
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
 from .xbus_apart import ApartHalves, Turn
 from .xbus_legacy import read_mtdata
@@ -31,12 +36,21 @@ PACKET_COUNTER, SAMPLE_TIME_FINE, TEMPERATURE = 0x1020, 0x1060, 0x0810
 ACCELERATION, ACCELERATION_HR = 0x4020, 0x4040
 RATE_OF_TURN, RATE_OF_TURN_HR = 0x8020, 0x8040
 MAGNETIC_FIELD = 0xC020
-MOTION = (ACCELERATION, ACCELERATION_HR, RATE_OF_TURN, RATE_OF_TURN_HR)
+DELTA_V, DELTA_Q = 0x4010, 0x8030
+MOTION = {  # number of values
+    ACCELERATION: 3,
+    ACCELERATION_HR: 3,
+    RATE_OF_TURN: 3,
+    RATE_OF_TURN_HR: 3,
+    DELTA_V: 3,
+    DELTA_Q: 4,
+}
 KIND, PRECISION = 0xFFF0, 0x3
 SIZES = (4, 4, 6, 8)  # bytes of a float, of fixed-point 12.20 and 16.32, of a double
 TICK_NS = 100_000  # SampleTimeFine counts at 10 kHz
 
 Items = dict[int, tuple[int, bytes]]
+Motion = tuple[tuple[float, ...], tuple[float, ...], Increments | None]
 
 
 @dataclass(frozen=True)
@@ -68,6 +82,7 @@ class XbusDecoder:
         self._framer = HeaderFramer(PREAMBLE, probe, MAX_FRAME, self.counters, no_motion)
         self.max_buffer = self._framer.max_buffer
         self._packets = PacketCounter(self.counters, 16)
+        self._interval = OutputInterval(TICK_NS, 32)
         self._apart = ApartHalves(self.counters)
         config = config or XbusConfig()
         self._field_unit = config.field_unit
@@ -85,6 +100,7 @@ class XbusDecoder:
         """Forget a half-received message."""
         self._framer.reset()
         self._packets.reset()
+        self._interval.reset()
         self._apart.reset()
         self._temperature = None
 
@@ -110,16 +126,32 @@ class XbusDecoder:
         if counter is not None:
             self._packets.count(counter)
         self._temperature = _take_first(_read_reals(items, TEMPERATURE, 1), self._temperature)
-        force = _read_reals(items, ACCELERATION, 3) or _read_reals(items, ACCELERATION_HR, 3)
-        rate = _read_reals(items, RATE_OF_TURN, 3) or _read_reals(items, RATE_OF_TURN_HR, 3)
         ticks, field = _read_whole(items, SAMPLE_TIME_FINE, 4), self._field(items)
-        if rate is not None and force is not None:
-            turn = Turn(ticks, counter, scaled(rate, 1.0), field)
-            self._append(turn, scaled(force, 1.0), arrival_ns, samples)
-        elif ticks is None or (rate is None and force is None):
+        if ticks is not None and DELTA_Q in items:  # messages apart come between
+            self._interval.add(ticks)
+        motion = _read_increments(items, self._interval.seconds) or _read_motion(items)
+        if motion is None:
+            self._join_half(items, ticks, counter, arrival_ns, samples)
+            return
+        force, rate, kind = motion
+        turn = Turn(ticks, counter, scaled(rate, 1.0), field, kind)
+        self._append(turn, scaled(force, 1.0), arrival_ns, samples)
+
+    def _join_half(
+        self,
+        items: Items,
+        ticks: int | None,
+        counter: int | None,
+        arrival_ns: int,
+        samples: list[Sample],
+    ) -> None:
+        """Take a message with one half of a sample."""
+        force, (rate, kind) = _read_force(items), _read_rate(items)
+        if ticks is None or (rate is None and force is None):
             self.counters[Refusal.INCOMPLETE] += 1
         elif rate is not None:
-            self._apart.add_rate(Turn(ticks, counter, scaled(rate, 1.0), field))
+            turn = Turn(ticks, counter, scaled(rate, 1.0), self._field(items), kind)
+            self._apart.add_rate(turn)
         elif force is not None:
             for turn, between in self._apart.add_force(ticks, scaled(force, 1.0)):
                 self._append(turn, between, arrival_ns, samples)
@@ -147,6 +179,7 @@ class XbusDecoder:
             self._temperature,
             turn.field,
             turn.counter,
+            turn.kind,
         )
         append_if_finite(self.counters, samples, sample)
 
@@ -180,13 +213,13 @@ def _is_bus_id(identifier: int) -> bool:
 
 
 def no_motion(frame: bytes, in_step: bool) -> bool:
-    """Doubt all but items of acceleration or rate of turn, which are no chance, and MTData."""
+    """Doubt all but items of motion, which are no chance, and MTData in step."""
     if frame[2] == MTDATA:
         return not in_step
     if frame[2] != MTDATA2:
         return True
     return not any(
-        key & KIND in MOTION and len(value) == 3 * SIZES[key & PRECISION]
+        len(value) == MOTION.get(key & KIND, 0) * SIZES[key & PRECISION] > 0
         for key, value in items_of(_cut_content(frame))
     )
 
@@ -206,6 +239,47 @@ def _is_row_of_items(content: bytes) -> bool:
 
 def _cut_content(frame: bytes | bytearray) -> bytes:
     return bytes(frame[6:-1] if frame[3] == EXTENDED else frame[4:-1])
+
+
+def _read_increments(items: Items, interval_s: float | None) -> Motion | None:
+    """Return force and rate of the increments; None without them or before the interval is known.
+
+    DeltaV needs no turning back: the maker's acceleration is DeltaV per second.
+    """
+    quaternion, push = _read_reals(items, DELTA_Q, 4), _read_reals(items, DELTA_V, 3)
+    if quaternion is None or push is None or interval_s is None:
+        return None
+    rotation = rotation_vector(quaternion)
+    if rotation is None:
+        return None
+    force = scaled(push, 1.0 / interval_s)
+    return force, per_second(rotation, interval_s), Increments.COMPENSATED
+
+
+def _read_motion(items: Items) -> Motion | None:
+    """Return force and rate, calibrated where they are sent, else of the high-rate outputs."""
+    calibrated = _read_reals(items, ACCELERATION, 3), _read_reals(items, RATE_OF_TURN, 3)
+    high = _read_reals(items, ACCELERATION_HR, 3), _read_reals(items, RATE_OF_TURN_HR, 3)
+    force, rate = calibrated[0] or high[0], calibrated[1] or high[1]
+    if force is None or rate is None:
+        return None
+    if (force, rate) == calibrated:
+        return force, rate, Increments.COMPENSATED
+    return force, rate, Increments.SAMPLED if (force, rate) == high else None
+
+
+def _read_force(items: Items) -> tuple[float, ...] | None:
+    return _read_reals(items, ACCELERATION, 3) or _read_reals(items, ACCELERATION_HR, 3)
+
+
+def _read_rate(items: Items) -> tuple[tuple[float, ...] | None, Increments | None]:
+    """Return a rate without a force, and what it is beside one interpolated to its stamp.
+
+    That force is no increment any more, so only samples of the signal keep their kind.
+    """
+    high = _read_reals(items, RATE_OF_TURN_HR, 3)
+    rate = _read_reals(items, RATE_OF_TURN, 3) or high
+    return rate, Increments.SAMPLED if rate is not None and rate is high else None
 
 
 def _read_whole(items: Items, key: int, size: int) -> int | None:

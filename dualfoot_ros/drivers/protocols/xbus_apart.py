@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import Counter, deque
 from typing import NamedTuple
 
-from ...core import Refusal, Vector
+from ...core import Increments, Refusal, Vector
 
 WRAP = 1 << 32  # of SampleTimeFine
 MOST_WAITING = 64  # rates of turn between two accelerations
@@ -17,12 +17,13 @@ LONGEST_STEP = 1000  # ticks of 0.1 ms between two accelerations; across more is
 
 
 class Turn(NamedTuple):
-    """A rate of turn and what came with it: ticks, counter, rad/s, field."""
+    """A rate of turn and what came with it: ticks, counter, rad/s, field, what it is."""
 
     ticks: int | None
     counter: int | None
     rate: Vector
     field: Vector | None
+    kind: Increments | None = None
 
 
 class ApartHalves:

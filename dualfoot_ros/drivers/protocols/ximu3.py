@@ -13,9 +13,10 @@ import struct
 from collections import Counter
 from dataclasses import dataclass
 
-from ...core import DEGREE, STANDARD_GRAVITY, Refusal, Vector
+from ...core import DEGREE, STANDARD_GRAVITY, Increments, Refusal, Vector
 from ..sample import Sample, scaled
 from .decoder import FieldConfig, append_if_finite
+from .delta import OutputInterval
 from .framing import DelimitedFramer
 
 END, ESCAPE, ESCAPED_END, ESCAPED_ESCAPE = b"\n", b"\xdb", b"\xdb\xdc", b"\xdb\xdd"
@@ -24,6 +25,8 @@ VALUES = {"I": 6, "M": 3, "T": 1}
 """Inertial, magnetometer and temperature messages, with their number of values."""
 BINARY = 0x80
 MAX_MESSAGE = 512
+SAMPLING_S = 1.0 / 400.0  # of the device; slower messages hold means (manual, 9.2, 9.3)
+SEEN = 8  # intervals, of which one at least was not lengthened by a loss
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,7 @@ class XImu3Decoder:
         self.counters: Counter[str] = Counter()
         self._framer = DelimitedFramer(END[0], MAX_MESSAGE, self.counters)
         self._field_unit = (config or XImu3Config()).field_unit
+        self._interval = OutputInterval(1000, 64)
         self._temperature: float | None = None
         self._field: Vector | None = None
 
@@ -51,8 +55,9 @@ class XImu3Decoder:
         return self._framer.buffered
 
     def reset(self) -> None:
-        """Forget a half-received message, temperature and field."""
+        """Forget a half-received message, the interval, temperature and field."""
         self._framer.reset()
+        self._interval.reset()
         self._temperature = self._field = None
 
     def feed(self, data: bytes, arrival_ns: int) -> list[Sample]:
@@ -87,10 +92,18 @@ class XImu3Decoder:
             self._field = scaled(values, self._field_unit) if self._field_unit else None
         else:
             force, rate = scaled(values[3:], STANDARD_GRAVITY), scaled(values[:3], DEGREE)
-            extras = self._temperature, self._field
+            self._interval.add(ticks)
+            extras = self._temperature, self._field, None, self._find_kind()
             append_if_finite(
                 self.counters, samples, Sample(arrival_ns, force, rate, ticks, 1000, 64, *extras)
             )
+
+    def _find_kind(self) -> Increments | None:
+        """Return what the messages are: the device averages those that it does not send all."""
+        interval_s = self._interval.seconds
+        if interval_s is None or self._interval.count < SEEN:
+            return None
+        return Increments.SAMPLED if interval_s < 1.5 * SAMPLING_S else Increments.AVERAGED
 
 
 def _parse_binary(message: bytes) -> tuple[int, tuple[float, ...]] | None:

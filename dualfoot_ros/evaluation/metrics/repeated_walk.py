@@ -58,6 +58,7 @@ def _repeat_samples(series: ImuSeries, times: int) -> ImuSeries:
         stamps,
         np.tile(series.specific_force, (times, 1)),
         np.tile(series.angular_rate, (times, 1)),
+        increments=series.increments,
     )
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 from rclpy.node import Node
 
-from ...core import FloatArray, Refusal, SourceError, Vector
+from ...core import FloatArray, Increments, Refusal, SourceError, Vector
 from ...drivers import CheckConfig, Sample, Source, State, recognise
 from ...inspection import Finding, FindingKind, Severity
 from ...settings import InputConfig
@@ -21,13 +21,15 @@ from .losses import REFUSED, in_words, increases
 
 PROBE = "'dualfoot probe URI' tries the usual ones"
 Take = Callable[[int | None, int, FloatArray, Vector | None], None]
+Declare = Callable[[Increments | None], None]
 
 
 class Device:
     """A sensor whose samples are handed to ``take`` from a thread of its own.
 
     ``take`` is called with device time (ns, or None), arrival (ns), values (6,) and field (3,) T
-    or None.  ``begin`` is called from the same thread before the first sample, with an event that
+    or None; before a sample of another kind than the last one, ``declare`` with what it is.
+    ``begin`` is called from the same thread before the first sample, with an event that
     is set when the device is stopped: a file waits there for its listeners.  ``ended`` is called
     once: without a reason when a file is over, with one when reading has failed for good.
     """
@@ -42,6 +44,7 @@ class Device:
         ended: Callable[[SourceError | None], None],
         *,
         begin: Callable[[threading.Event], None] | None = None,
+        declare: Declare = lambda kind: None,
     ) -> None:
         """Put it together; :meth:`start` starts.
 
@@ -51,6 +54,8 @@ class Device:
             When the URI, an option in it or the file it names is not allowed.
         """
         self._node, self._hand_on, self._ended, self._begin = node, take, ended, begin
+        self._declare = declare
+        self._kind: Increments | None = None
         self._config = config
         self.without_time = 0
         self.temperature = math.nan
@@ -83,6 +88,9 @@ class Device:
         self._last_s, self._at_last = time.monotonic(), self._count_refused()
         try:
             for sample in samples:
+                if sample.increments is not self._kind:
+                    self._kind = sample.increments
+                    self._declare(self._kind)
                 values = np.array((*sample.specific_force, *sample.angular_rate))
                 device_ns, field = self._read_time(sample), sample.magnetic_field
                 self._hand_on(device_ns, sample.arrival_ns, values, field)

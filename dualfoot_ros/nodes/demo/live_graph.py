@@ -21,6 +21,7 @@ from rclpy.parameter import Parameter
 from ...core import FEET, DualFootError, TrackerConfig, Trajectory
 from ..fusion import FusionNode
 from ..inputs.field_topics import TOPICS as MAGNETIC
+from ..inputs.increments_topics import TOPICS as KINDS
 from ..inputs.pressure_topics import TOPICS
 from ..replay import ReplayNode
 from ..ros.program import destroy
@@ -106,7 +107,12 @@ class LiveGraph:
         return waiting
 
     def _has_room(self) -> bool:
-        return max(self._under_way()) < AHEAD
+        return self._know_kinds() and max(self._under_way()) < AHEAD
+
+    def _know_kinds(self) -> bool:
+        """Return whether every fusion node knows what the samples are, as far as the bag does."""
+        known = {foot for foot, output in self.replay.increments.items() if output.kind}
+        return all(known <= set(fusion.increments.declared) for fusion in self.fusions.values())
 
     def run(self, progress: Progress) -> None:
         """Spin until everything has arrived, or nothing has moved for a while.
@@ -187,6 +193,7 @@ def same_bits(live: Trajectory, batch: Trajectory) -> bool:
 
 
 def _remap_inputs(space: str) -> list[str]:
-    names = [*(f"{foot}/imu/data_sync" for foot in FEET), *TOPICS.values(), *MAGNETIC.values()]
+    names = [*(f"{foot}/imu/data_sync" for foot in FEET), *KINDS.values()]
+    names += [*TOPICS.values(), *MAGNETIC.values()]
     remaps = [f"{name}:=/{space}/{name}" for name in names]
     return ["--ros-args", *(word for remap in remaps for word in ("-r", remap))]

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from ...recording import METADATA, check_target, new_bag, new_directory
 
@@ -40,7 +40,10 @@ class RecorderNode(Node):
         name = self.resolve_topic_name(topic)
         package = message_type.__module__.split(".")[0]
         type_name = f"{package}/msg/{message_type.__name__}"
-        key = self._writer.add_topic(name, type_name)
+        is_latched = profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
+        key = self._writer.add_topic(
+            name, type_name, latched_depth=profile.depth if is_latched else 0
+        )
 
         def write(data: bytes) -> None:
             self._writer.write(key, self._now_ns(), data)

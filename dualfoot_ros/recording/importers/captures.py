@@ -17,6 +17,7 @@ from ...core import (
     FEET,
     FloatArray,
     ImuSeries,
+    Increments,
     IntArray,
     RecordingError,
     Refusal,
@@ -41,6 +42,7 @@ LOSSES = (
 class _Decoded(NamedTuple):
     samples: SampleSeries
     losses: str
+    kind: Increments | None
 
 
 def load(options: ImportOptions) -> Recording:
@@ -61,7 +63,7 @@ def load(options: ImportOptions) -> Recording:
     sources = {foot: _source(path, options.capture) for foot, path in files.items()}
     decoded = {foot: _decode(path, sources[foot]) for foot, path in files.items()}
     series = {
-        foot: _series(files[foot], found.samples, rotation, options.capture_rate)
+        foot: _series(files[foot], found, rotation, options.capture_rate)
         for foot, found in decoded.items()
     }
     losses = "; ".join(f"{foot} {found.losses}" for foot, found in decoded.items() if found.losses)
@@ -108,18 +110,25 @@ def _decode(path: Path, source: SourceUri) -> _Decoded:
         raise RecordingError(
             f"'{path}' has no sample of the format '{source.format}' in {len(data)} bytes{other}"
         )
-    return _Decoded(series_of(samples, live=False), _describe_losses(decoder.counters))
+    kinds = {sample.increments for sample in samples} - {None}  # not known before some intervals
+    return _Decoded(
+        series_of(samples, live=False),
+        _describe_losses(decoder.counters),
+        kinds.pop() if len(kinds) == 1 else None,
+    )
 
 
 def _describe_losses(counters: Counter[str]) -> str:
     return ", ".join(f"{counters[kind]} {kind.words}" for kind in LOSSES if counters[kind])
 
 
-def _series(path: Path, samples: SampleSeries, rotation: FloatArray, rate_hz: float) -> ImuSeries:
+def _series(path: Path, decoded: _Decoded, rotation: FloatArray, rate_hz: float) -> ImuSeries:
+    samples = decoded.samples
     turned = ImuSeries(
         _stamps(path, samples, rate_hz),
         samples.specific_force @ rotation.T,
         samples.angular_rate @ rotation.T,
+        increments=decoded.kind,
     )
     field = samples.magnetic_field
     return turned if field is None else replace(turned, magnetic_field=field @ rotation.T)

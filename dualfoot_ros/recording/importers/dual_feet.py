@@ -16,6 +16,7 @@ from ...core import (
     RIGHT_FRONT_UP,
     FloatArray,
     ImuSeries,
+    Increments,
     IntArray,
     RecordingError,
     axes_matrix,
@@ -108,4 +109,6 @@ def _series(walk: dict[str, Any], path: Path, foot: str, stamp_ns: IntArray) -> 
                 f"{len(stamp_ns)} stamps allowed is ({len(stamp_ns)}, 3)"
             )
         columns[name] = column @ turn
-    return ImuSeries(stamp_ns, columns["acc"], columns["gyros"], columns["mag"] * NANOTESLA)
+    field = columns["mag"] * NANOTESLA
+    kind = Increments.COMPENSATED  # Xsens DOT
+    return ImuSeries(stamp_ns, columns["acc"], columns["gyros"], field, kind)

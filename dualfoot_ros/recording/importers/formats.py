@@ -9,7 +9,7 @@ from typing import cast
 
 import numpy as np
 
-from ...core import ImuSeries, RecordingError
+from ...core import FEET, ImuSeries, Increments, RecordingError
 from ..recording import Recording
 from .options import ImportOptions
 
@@ -33,7 +33,7 @@ class Format:
         return cast(Callable[[ImportOptions], Recording], module.load)(options)
 
 
-OF_ALL = ("sources", "left", "right", "right_offset_s")
+OF_ALL = ("sources", "left", "right", "right_offset_s", "increments")
 FOLDER = "/"
 CAPTURE = "capture"
 BAG_SUFFIXES = (FOLDER, ".mcap", ".db3", ".bag")
@@ -91,7 +91,7 @@ def import_recording(options: ImportOptions, name: str = "auto") -> Recording:
         name = CAPTURE
     chosen = _format(name, suffix)
     check_options(options, chosen)
-    recording = chosen.load(options)
+    recording = _declared(chosen.load(options), options.increments)
     return _shifted(recording, round(options.right_offset_s * 1e9))
 
 
@@ -122,6 +122,28 @@ def _format(name: str, suffix: str) -> Format:
         known = ", ".join(f"{' or '.join(f.suffixes)} ({f.name})" for f in FORMATS)
         raise RecordingError(f"files '*{suffix}' are of no known format; known: {known}")
     raise RecordingError(f"format is '{name}'; allowed is auto, {names}")
+
+
+def _declared(recording: Recording, kind: str) -> Recording:
+    """Return the recording with samples of that kind; "auto" leaves what the source says.
+
+    Raises
+    ------
+    RecordingError
+        When there is no such kind.
+    """
+    if kind == "auto":
+        return recording
+    if kind not in tuple(Increments):
+        raise RecordingError(
+            f"increments is '{kind}'; allowed is auto, {', '.join(known for known in Increments)}"
+        )
+    feet = {
+        foot: replace(series, increments=Increments(kind))
+        for foot in FEET
+        if (series := recording.imu(foot)) is not None
+    }
+    return replace(recording, **feet)  # type: ignore[arg-type]
 
 
 def _shifted(recording: Recording, offset_ns: int) -> Recording:

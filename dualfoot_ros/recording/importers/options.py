@@ -27,6 +27,7 @@ class ImportOptions:
     capture_rate : samples a second of a captured device that sends no time; 0 for one that does
     stamps : stamps of a bag, one of ``STAMPS``: those of the headers as they are, the log times
         evened out, or those of the headers evened out by the number of the sample
+    increments : what the samples are, a value of ``Increments``; "auto" as the source says
     force_unit, rate_unit : units of a bag's samples, keys of ``FORCE_UNITS``, ``RATE_UNITS``
     """
 
@@ -43,3 +44,4 @@ class ImportOptions:
     stamps: str = "header"
     capture: str = ""
     capture_rate: float = 0.0
+    increments: str = "auto"

@@ -85,9 +85,9 @@ def _turned(
     if series is None:
         return None
     field = series.magnetic_field
-    return ImuSeries(
-        series.stamp_ns,
-        series.specific_force @ rotation.T * force,
-        series.angular_rate @ rotation.T * rate,
-        None if field is None else field @ rotation.T,
+    return replace(
+        series,
+        specific_force=series.specific_force @ rotation.T * force,
+        angular_rate=series.angular_rate @ rotation.T * rate,
+        magnetic_field=None if field is None else field @ rotation.T,
     )

@@ -8,11 +8,12 @@ forward-left-up when it lies flat with its x axis to the toes; ``axes`` describe
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from ...core import FORWARD_LEFT_UP, FloatArray, ImuSeries, RecordingError, axes_matrix
+from ...core import FORWARD_LEFT_UP, FloatArray, ImuSeries, Increments, RecordingError, axes_matrix
 from ..recording import Recording
 from .options import ImportOptions
 from .sample_counter import same_wrap, unwrap_us
@@ -77,7 +78,7 @@ def _both(left: dict[str, str], right: dict[str, str], key: str) -> str:
 
 
 def _restamped(series: ImuSeries, stamp_ns: np.ndarray) -> ImuSeries:
-    return ImuSeries(stamp_ns, series.specific_force, series.angular_rate, series.magnetic_field)
+    return replace(series, stamp_ns=stamp_ns)
 
 
 def _read(
@@ -91,7 +92,8 @@ def _read(
     table = _table(lines[at + 1 :], names, wanted, delimiter, path, at + 2)
     vectors = [table[:, k : k + 3] @ rotation.T for k in range(1, table.shape[1], 3)]
     field = vectors[2] * field_scale if field_scale else None
-    series = ImuSeries(unwrap_us(table[:, 0]), vectors[0], np.deg2rad(vectors[1]), field)
+    stamps, kind = unwrap_us(table[:, 0]), Increments.COMPENSATED
+    series = ImuSeries(stamps, vectors[0], np.deg2rad(vectors[1]), field, kind)
     return series, _header(lines[:at], delimiter)
 
 

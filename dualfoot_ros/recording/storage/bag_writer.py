@@ -19,8 +19,11 @@ NO_LIBRARY = (
 class BagWriter(Protocol):
     """A bag that is being written."""
 
-    def add_topic(self, topic: str, msgtype: str) -> Any:
-        """Add a topic and return its key for :meth:`write`."""
+    def add_topic(self, topic: str, msgtype: str, *, latched_depth: int = 0) -> Any:
+        """Add a topic and return its key for :meth:`write`.
+
+        Players keep the last ``latched_depth`` messages for those who come late.
+        """
 
     def write(self, key: Any, log_ns: int, data: bytes) -> None:
         """Write one message, as CDR bytes."""
@@ -64,11 +67,39 @@ class _Rosbags:
 
         self._writer, self._store = writer, get_typestore(Stores.ROS2_JAZZY)
 
-    def add_topic(self, topic: str, msgtype: str) -> Any:
-        return self._writer.add_connection(topic, msgtype, typestore=self._store)
+    def add_topic(self, topic: str, msgtype: str, *, latched_depth: int = 0) -> Any:
+        profiles = [_latched_qos(latched_depth)] if latched_depth else []
+        return self._writer.add_connection(
+            topic, msgtype, typestore=self._store, offered_qos_profiles=profiles
+        )
 
     def write(self, key: Any, log_ns: int, data: bytes) -> None:
         self._writer.write(key, log_ns, data)
+
+
+def _latched_qos(depth: int) -> Any:
+    """Return the QoS for a player to publish a topic with: reliable, transient local."""
+    from rosbags.interfaces import (
+        Qos,
+        QosDurability,
+        QosHistory,
+        QosLiveliness,
+        QosReliability,
+        QosTime,
+    )
+
+    never = QosTime(sec=2147483647, nsec=4294967295)
+    return Qos(
+        history=QosHistory.KEEP_LAST,
+        depth=depth,
+        reliability=QosReliability.RELIABLE,
+        durability=QosDurability.TRANSIENT_LOCAL,
+        deadline=never,
+        lifespan=never,
+        liveliness=QosLiveliness.AUTOMATIC,
+        liveliness_lease_duration=never,
+        avoid_ros_namespace_conventions=False,
+    )
 
 
 @contextmanager
@@ -91,12 +122,16 @@ class _Rosbag2Py:
         self._writer: Any = writer
         self._topics = 0
 
-    def add_topic(self, topic: str, msgtype: str) -> str:
+    def add_topic(self, topic: str, msgtype: str, *, latched_depth: int = 0) -> str:
         import rosbag2_py
 
         metadata = rosbag2_py.TopicMetadata(
             id=self._topics, name=topic, type=msgtype, serialization_format="cdr"
         )
+        if latched_depth:
+            from rosbag2_py._storage import QoS
+
+            metadata.offered_qos_profiles = [QoS(latched_depth).reliable().transient_local()]
         self._topics += 1
         self._writer.create_topic(metadata)
         return topic

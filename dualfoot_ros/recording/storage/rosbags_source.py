@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import cdr
-from ..topics import TRUTH_TYPE
+from ..topics import INCREMENTS_TYPE, TRUTH_TYPE
 from .bag_source import SEVERAL_TYPES, Message, TopicInfo
 
 if TYPE_CHECKING:
@@ -58,16 +58,21 @@ class Ros1Source:
         self.custom: dict[str, str] = {}
 
     def messages(self, topics: Collection[str]) -> Iterator[Message]:
-        """Yield the messages of ``topics``, which begin with a header."""
+        """Yield the messages of ``topics``, which begin with a header or are a string."""
         wanted = [c for c in self._reader.connections if c.topic in topics]
         if wanted:
             for connection, log_ns, data in self._reader.messages(wanted):
-                texts = 2 if connection.msgtype == TRUTH_TYPE else 1
-                yield Message(connection.topic, log_ns, cdr.from_ros1(data, texts))
+                yield Message(connection.topic, log_ns, _to_cdr(connection.msgtype, data))
 
     def close(self) -> None:
         """Close the file."""
         self._reader.close()
+
+
+def _to_cdr(msgtype: str, data: bytes) -> bytes:
+    if msgtype == INCREMENTS_TYPE:
+        return cdr.LITTLE_ENDIAN + data
+    return cdr.from_ros1(data, 2 if msgtype == TRUTH_TYPE else 1)
 
 
 def _topics(reader: Reader1 | Reader2) -> dict[str, TopicInfo]:

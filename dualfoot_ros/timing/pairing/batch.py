@@ -44,7 +44,7 @@ def align_with_report(
 ) -> tuple[ImuSeries, ImuSeries, AlignReport]:
     """Return both series on one grid with equal stamps, and what became of their samples.
 
-    Values are interpolated linearly (or held, ``config.between``), never across more than
+    Values are interpolated (or held, ``config.between``), never across more than
     ``config.max_gap``.  Samples with stamps that do not increase or values that are not finite are
     left out and counted.  Feet that never were on at the same time give empty series.
 

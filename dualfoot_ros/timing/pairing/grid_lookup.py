@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import BoolArray, FloatArray, ImuSeries, IntArray
+from .interpolation import between_rows
 from .pairing_config import AlignerConfig
 
 
@@ -19,6 +20,7 @@ class GridLookup:
     before, after : (N,) index of the last sample at or before, and of the one after it; where
         ``exact``, ``before`` is the sample that is taken
     weight : (N,) share of ``after`` in the value
+    width_s : (N,) s, time between the two
     exact : (N,) a sample is within the tolerance and taken as it is
     between : (N,) interpolated, or the earlier one held
     outside : (N,) before the first or after the last sample
@@ -27,6 +29,7 @@ class GridLookup:
     before: IntArray
     after: IntArray
     weight: FloatArray
+    width_s: FloatArray
     exact: BoolArray
     between: BoolArray
     outside: BoolArray
@@ -42,11 +45,12 @@ class GridLookup:
         on_high = np.abs(stamps[high] - grid) <= config.tolerance_ns
         exact = on_low | on_high
         width = stamps[high] - stamps[low]
+        width_s = width.astype(np.float64) * 1e-9
         between = inside & ~exact & (width <= config.max_gap_ns)
         since = np.zeros(len(grid)) if config.holds else grid - stamps[low]
         weight = since / np.where(between, width, 1)
         taken = np.where(on_high & ~on_low, high, low)
-        return cls(taken, high, weight, exact, between, ~inside & ~exact)
+        return cls(taken, high, weight, width_s, exact, between, ~inside & ~exact)
 
     @property
     def found(self) -> BoolArray:
@@ -55,12 +59,17 @@ class GridLookup:
 
     def take(self, series: ImuSeries, grid: IntArray, good: BoolArray) -> ImuSeries:
         """Return the series at the ``good`` stamps of the grid."""
-        field = series.magnetic_field
+        field, exact = series.magnetic_field, self.exact[good][:, None]
+        values = np.hstack([series.specific_force, series.angular_rate])
+        before, after = values[self.before[good]], values[self.after[good]]
+        inside = between_rows(before, after, self.weight[good], self.width_s[good])
+        taken = np.where(exact, before, inside)
         return ImuSeries(
             grid[good],
-            self._values(series.specific_force, good),
-            self._values(series.angular_rate, good),
+            taken[:, :3],
+            taken[:, 3:],
             None if field is None else self._values(field, good),
+            series.increments,
         )
 
     def _values(self, column: FloatArray, good: BoolArray) -> FloatArray:

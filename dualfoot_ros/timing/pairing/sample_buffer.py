@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections import deque
 from typing import NamedTuple
 
+import numpy as np
+
 from ...core import FloatArray
+from .interpolation import between
 from .pairing_config import AlignerConfig
 
 CAPACITY = 20_000  # samples a foot; never reached at sane rates
@@ -69,4 +72,6 @@ class SampleBuffer:
         if after_ns - before_ns > self._gap_ns:
             return BufferedSample(None, "in_gap", after_ns - self._tolerance_ns)
         weight = 0.0 if self._holds else (stamp_ns - before_ns) / (after_ns - before_ns)
-        return BufferedSample(before + (after - before) * weight, "interpolated")
+        width_s = (after_ns - before_ns) * 1e-9
+        values = between(before.tolist(), after.tolist(), weight, width_s)
+        return BufferedSample(np.array(values), "interpolated")

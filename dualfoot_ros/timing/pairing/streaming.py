@@ -1,7 +1,7 @@
 """Pairs with equal stamps from two streams, sample by sample.
 
 The grid is either the stamps of one foot, whose samples then pass unchanged while the other foot
-is interpolated linearly (or held, ``between``) onto them (``rate`` 0: no rate has to be known or
+is interpolated (or held, ``between``) onto them (``rate`` 0: no rate has to be known or
 estimated, a sensor clock that is off or drifts is followed, and streams that share their stamps
 pass untouched), or it is uniform from the first common stamp on (``rate`` above 0: both feet are
 interpolated).

@@ -5,6 +5,7 @@ import struct
 import numpy as np
 import pytest
 
+from dualfoot_ros.core import Increments
 from dualfoot_ros.drivers.protocols.dot import DotConfig, DotDecoder
 from dualfoot_ros.drivers.protocols.dot_csv import DotCsvConfig, DotCsvDecoder
 
@@ -20,6 +21,7 @@ def test_a_notification_is_a_sample(payload, padding):
     assert sample.specific_force == pytest.approx(force, rel=1e-6)
     assert sample.angular_rate == pytest.approx(rate, rel=1e-6)
     assert (sample.ticks, sample.tick_ns, sample.tick_bits) == (45_000, 1000, 32)
+    assert sample.increments is Increments.COMPENSATED
     field = (2.5e-5, -1.25e-5, 3.75e-5) if payload == "rate_mag" else None
     assert sample.magnetic_field == (None if field is None else pytest.approx(field))
 

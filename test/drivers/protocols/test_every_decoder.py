@@ -56,6 +56,25 @@ def test_what_the_device_measured_comes_out_in_si_units(name):
     assert not decoder.counters["garbage_bytes"]
 
 
+KINDS = {
+    "mcu": None,  # the frames of these tests do not say
+    "ximu3": "averaged",  # at 200 Hz
+    "ximu3_ascii": "averaged",
+    "witmotion": "sampled",
+    "xbus": "compensated",
+    "vectornav": "sampled",
+    "vectornav_ascii": "sampled",
+    "dot_csv": "compensated",
+}
+
+
+@formats
+def test_samples_say_what_they_are_where_the_maker_does(name):
+    samples, _ = decode(name, stream(name, 40))
+    assert samples[-1].increments == KINDS[name]
+    assert {sample.increments for sample in samples} <= {None, KINDS[name]}
+
+
 @pytest.mark.parametrize("name", TIMED)
 def test_device_time_advances_by_the_sampling_period(name):
     samples, _ = decode(name, stream(name, 40))

@@ -61,7 +61,14 @@ def test_whole_numbers_are_worth_what_the_frame_says():
     assert sample.angular_rate == (1.0, -1.25, 1.5)
 
 
-@pytest.mark.parametrize("kind", [0, 3, 0x41, 0x81])
+@pytest.mark.parametrize("bits", range(4))
+def test_two_bits_say_what_the_values_are(bits):
+    plain = struct.pack("<BHI6f", 1 | bits << 6, 1, 2, *[1.0] * 6)
+    (sample,) = McuDecoder().feed(stuff(plain + struct.pack("<H", crc16(plain, 0xFFFF))), 5)
+    assert sample.increments == (None, "averaged", "sampled", "compensated")[bits]
+
+
+@pytest.mark.parametrize("kind", [0, 3, 0x43, 0x8F])
 def test_a_kind_of_a_later_version_is_counted_and_left_alone(kind):
     plain = struct.pack("<BHI6f", kind, 1, 2, *[1.0] * 6)
     decoder = McuDecoder()
@@ -101,6 +108,7 @@ class Extras(ctypes.Structure):
     _fields_ = (
         ("centidegrees", ctypes.POINTER(ctypes.c_int16)),
         ("field", ctypes.POINTER(ctypes.c_int16)),
+        ("increments", ctypes.c_uint8),
     )
 
 
@@ -112,10 +120,11 @@ def floats(*values):
     return (ctypes.c_float * len(values))(*values)
 
 
-def extras(centidegrees, field):
+def extras(centidegrees, field, increments):
     pointer = ctypes.POINTER(ctypes.c_int16)
     parts = [None if part is None else words(*part) for part in (centidegrees, field)]
-    return Extras(*(ctypes.cast(p, pointer) if p is not None else pointer() for p in parts)), parts
+    pointers = (ctypes.cast(p, pointer) if p is not None else pointer() for p in parts)
+    return Extras(*pointers, increments), parts
 
 
 i16 = st.integers(-32768, 32767)
@@ -123,6 +132,7 @@ f32 = st.floats(width=32, allow_nan=False, allow_infinity=False)
 optional = st.tuples(
     st.none() | st.tuples(i16),
     st.none() | st.tuples(i16, i16, i16),
+    st.integers(0, 3),
 )
 
 
@@ -162,7 +172,8 @@ def test_the_reference_encoder_and_the_decoder_agree_on_whole_numbers(encoder, v
     (sample,) = McuDecoder().feed(out.raw[:size], 5)
     assert sample.specific_force == tuple(0.5 * v for v in values[:3])
     assert sample.angular_rate == tuple(0.25 * v for v in values[3:])
-    temperature, field = more
+    temperature, field, kind = more
+    assert sample.increments == (None, "averaged", "sampled", "compensated")[kind]
     assert sample.temperature == (None if temperature is None else temperature[0] * 0.01)
     assert sample.magnetic_field == (None if field is None else tuple(v * 1e-7 for v in field))
 

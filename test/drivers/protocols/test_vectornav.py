@@ -1,9 +1,13 @@
 """The VectorNav decoder against the maker's example and messages written from its tables."""
 
+import math
 import struct
 
+import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
+from dualfoot_ros.core import Increments
 from dualfoot_ros.drivers.protocols.vectornav import VectorNavConfig, VectorNavDecoder, probe
 
 from ..frames import vectornav_message
@@ -38,6 +42,42 @@ def test_the_imu_field_of_the_common_group_is_acceleration_then_rate():
     sample = decode_one(vectornav_message(1, [1 << 0 | 1 << 9], content))
     assert (sample.specific_force, sample.angular_rate) == UNCOMPENSATED
     assert (sample.ticks, sample.tick_ns, sample.tick_bits) == (123_456_789_000, 1, 64)
+
+
+def held_push(rotation, force, interval_s, parts=2000):
+    """Return the push (3,) in the axes at the start of a force that is constant in the body."""
+    shares = (np.arange(parts) + 0.5) / parts
+    turned = Rotation.from_rotvec(np.outer(shares, rotation)).apply(force)
+    return turned.mean(axis=0) * interval_s
+
+
+@pytest.mark.parametrize("group", ["common", "imu"])
+def test_increments_become_the_rate_and_force_that_hold_over_their_interval(group):
+    rotation, force, interval_s = np.array([0.06, -0.15, 0.02]), np.array([3.0, -1.0, 12.0]), 0.02
+    push = held_push(rotation, force, interval_s)
+    theta = struct.pack("<4f", interval_s, *np.degrees(rotation))
+    content = theta + struct.pack("<3f", *push)
+    masks = (1, [1 << 11]) if group == "common" else (4, [1 << 6 | 1 << 7])
+    sample = decode_one(vectornav_message(*masks, content))
+    assert sample.angular_rate == pytest.approx(rotation / interval_s, rel=1e-5)
+    assert sample.specific_force == pytest.approx(force, rel=1e-5)
+    assert sample.increments is Increments.COMPENSATED
+
+
+def test_increments_are_preferred_to_rates_which_are_sampled():
+    rates = vectors(UNCOMPENSATED)
+    increments = struct.pack("<7f", 0.01, 0.0, 0.0, 1.0, 0.0, 0.0, 0.1)
+    both = decode_one(vectornav_message(1, [1 << 9 | 1 << 11], rates + increments))
+    assert both.specific_force == pytest.approx((0.0, 0.0, 10.0))
+    alone = decode_one(vectornav_message(1, [1 << 9], rates))
+    assert alone.increments is Increments.SAMPLED
+
+
+@pytest.mark.parametrize("interval_s", [0.0, -0.01, math.nan, 5.0])
+def test_increments_of_an_impossible_interval_are_left_for_the_rates(interval_s):
+    content = vectors(UNCOMPENSATED) + struct.pack("<7f", interval_s, *[1.0] * 6)
+    sample = decode_one(vectornav_message(1, [1 << 9 | 1 << 11], content))
+    assert (sample.specific_force, sample.angular_rate) == UNCOMPENSATED
 
 
 def test_fields_stand_in_the_order_of_groups_and_bits():

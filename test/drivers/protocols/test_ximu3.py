@@ -8,6 +8,7 @@ import time
 import pytest
 from processes import PATIENCE_S
 
+from dualfoot_ros.core import Increments
 from dualfoot_ros.drivers.protocols.ximu3 import XImu3Config, XImu3Decoder
 
 from ..frames import truth, ximu3, ximu3_ascii
@@ -28,6 +29,20 @@ def test_the_examples_of_the_manual_are_decoded(message):
 def test_degrees_a_second_become_radians():
     (sample,) = XImu3Decoder().feed(b"I,1,90.0,-180.0,360.0,0,0,1\n", 5)
     assert sample.angular_rate == pytest.approx((math.pi / 2, -math.pi, 2 * math.pi))
+
+
+@pytest.mark.parametrize(
+    ("interval_us", "kind"), [(2500, Increments.SAMPLED), (5000, Increments.AVERAGED)]
+)
+def test_messages_slower_than_the_device_samples_are_means(interval_us, kind):
+    decoder = XImu3Decoder()
+    lost = (3, 7, 8)
+    lines = [f"I,{k * interval_us},0,0,0,0,0,1\n" for k in range(24) if k not in lost]
+    samples = decoder.feed("".join(lines).encode(), 5)
+    assert [sample.increments for sample in samples] == [None] * 8 + [kind] * 13
+    decoder.reset()
+    (again,) = decoder.feed(b"I,0,0,0,0,0,0,1\n", 5)
+    assert again.increments is None
 
 
 def test_a_line_feed_and_an_escape_inside_a_message_are_unstuffed():

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.io import savemat
 
-from dualfoot_ros.core import ImuSeries
+from dualfoot_ros.core import ImuSeries, Increments
 from dualfoot_ros.core.errors import ConfigError
 from dualfoot_ros.recording import RecordingError, Topics, write_bag
 from dualfoot_ros.recording.importers import FORMATS, ImportOptions, import_recording
@@ -298,7 +298,15 @@ def test_every_format_loads_by_its_name(tmp_path, pair):
     )
     for known in FORMATS:
         for name in (known.name, "auto"):
-            assert len(import_recording(sources[known.name], name).left) == 20
+            loaded = import_recording(sources[known.name], name)
+            assert len(loaded.left) == 20
+            averaged = known.name == "capture"  # of an x-IMU3; the others are from Xsens DOT
+            kind = Increments.AVERAGED if averaged else Increments.COMPENSATED
+            assert loaded.right.increments is kind
+    sampled = import_recording(replace(sources["rosbag"], increments="sampled"))
+    assert sampled.left.increments is Increments.SAMPLED
+    with pytest.raises(RecordingError, match="increments is 'smooth'; allowed is auto, compens"):
+        import_recording(replace(sources["rosbag"], increments="smooth"))
 
 
 def test_every_real_walk_imports_with_both_feet_standing_at_the_start(dual_feet):

@@ -28,7 +28,7 @@ def test_a_lap_without_a_stop_is_found_at_the_right_cycle(seed):
 
 @pytest.mark.parametrize("drift", [900.0, -900.0])
 def test_a_skew_of_900_ppm_on_a_lap_is_found(drift):
-    walk = walked(1, drift=drift, route="track")
+    walk = walked(0, drift=drift, route="track")
     found = offset_by_motion(walk.left, walk.right, "motion")
     assert found.skew_known
     assert found.skew_ppm == pytest.approx(drift, abs=15.0)

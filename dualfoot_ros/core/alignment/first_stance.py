@@ -1,0 +1,80 @@
+"""A start without any stand: level from the first stances of the walk, gyro bias unknown."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ..config import TrackerConfig
+from ..results.events import FEET
+from ..rotation import skew
+from ..samples.series import FloatArray
+from .foot_stand import FootStandstill
+from .window import Window, WindowSlider
+
+LENGTH_S = 0.2  # of the window in which a foot counts as standing
+CALM_RATE_STD, CALM_FORCE_STD = 0.3, 1.0  # rad/s and m/s^2, scatter within it
+CALM_RATE, CALM_GRAVITY = 0.5, 1.0  # rad/s and m/s^2, of its means
+APART_S = 1.0  # from the stance of one foot to that of the other
+BIAS_STD = 10.0  # rad/s: a stance tells nothing of the gyro bias
+TILT_STD = 0.5  # m/s^2, of the mean force of a foot that only just stands
+
+
+class FirstStances:
+    """Looks for a stance of one foot, and for one of the other foot soon after it."""
+
+    def __init__(self, config: TrackerConfig) -> None:
+        """Start with no sample."""
+        self._gravity = config.gravity
+        self._sliders = tuple(WindowSlider(LENGTH_S) for _ in FEET)
+        self._stances: list[FootStandstill | None] = [None, None]
+        self._turned = [np.eye(3), np.eye(3)]  # of each body since its stance
+        self._last_ns: int | None = None
+
+    def add(
+        self, stamp_ns: int, values: FloatArray
+    ) -> tuple[FootStandstill, FootStandstill] | None:
+        """Take a pair (12,); return what both stances tell when the second one has come."""
+        dt = 0.0 if self._last_ns is None else (stamp_ns - self._last_ns) * 1e-9
+        self._last_ns = stamp_ns
+        for foot, slider in enumerate(self._sliders):
+            sample = values[6 * foot : 6 * foot + 6]
+            self._turned[foot] = self._turned[foot] @ small_rotation(sample[3:] * dt)
+            window = slider.add(stamp_ns, sample.copy())
+            if window is not None and self._calm(window):
+                self._stances[foot] = standstill_of(window)
+                self._turned[foot] = np.eye(3)
+        left, right = self._stances
+        if left is None or right is None or abs(left.end_ns - right.end_ns) > APART_S * 1e9:
+            return None
+        return self._now(0, left, stamp_ns), self._now(1, right, stamp_ns)
+
+    def _calm(self, window: Window) -> bool:
+        excess = abs(math.hypot(*window.mean[:3].tolist()) - self._gravity)
+        return (
+            window.rate_std < CALM_RATE_STD
+            and float(window.std[:3].max()) < CALM_FORCE_STD
+            and float(np.abs(window.mean[3:]).max()) < CALM_RATE
+            and excess < CALM_GRAVITY
+        )
+
+    def _now(self, foot: int, stance: FootStandstill, stamp_ns: int) -> FootStandstill:
+        """Return what a stance tells of a foot that has turned since."""
+        force = self._turned[foot].T @ stance.specific_force
+        moving = stamp_ns > stance.end_ns
+        return replace(stance, specific_force=force, moving=moving, end_ns=stamp_ns)
+
+
+def standstill_of(window: Window) -> FootStandstill:
+    """Return what a window of a foot that only just stands tells: the level."""
+    force, end_ns = window.mean[:3], window.end_ns
+    return FootStandstill(force, np.zeros(3), BIAS_STD, TILT_STD, window.seconds, end_ns)
+
+
+def small_rotation(turn: FloatArray) -> FloatArray:
+    """Return the rotation (3, 3) by the rotation vector ``turn`` (3,) rad, to second order."""
+    cross = skew(turn)
+    rotation: FloatArray = np.eye(3) + cross + 0.5 * cross @ cross
+    return rotation

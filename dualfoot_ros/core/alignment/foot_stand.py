@@ -1,0 +1,132 @@
+"""Weighted standstill of one foot: level and gyro bias, with the uncertainty that they deserve.
+
+A standing person sways at 0.1-0.3 deg/s.  So a window slides over the stand and counts the more
+the stiller it is.  Nothing is chosen, so one sample more or less changes the bias by next to
+nothing; only motion ends a stand.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..config_groups import AlignmentConfig
+from ..samples.series import FloatArray
+from .window import SLIDES, Window
+
+MEMORY_S = 30.0  # what is older than that fades: biases drift
+UPRIGHT = 0.95  # cosine to the vertical, from which an axis has no heading
+FEWEST = 3.0  # independent windows below which their scatter alone says too little
+
+
+@dataclass(frozen=True)
+class FootStandstill:
+    """What a standstill tells about one foot.
+
+    Attributes
+    ----------
+    specific_force : (3,) m/s^2, mean
+    angular_rate : (3,) rad/s, mean: the gyro bias
+    rate_std : rad/s, standard deviation of that mean
+    force_std : m/s^2, standard deviation of the mean force across gravity: how far it tilts
+    seconds : length of the stand, as far as it was still
+    end_ns : stamp of its last sample
+    moving : whether the foot may be moving at that stamp
+    """
+
+    specific_force: FloatArray
+    angular_rate: FloatArray
+    rate_std: float
+    force_std: float
+    seconds: float
+    end_ns: int
+    moving: bool = False
+
+    def levelling(self) -> FloatArray:
+        """Return R_nb (3, 3) with roll and pitch from gravity and the body x axis heading zero."""
+        up = self.specific_force / math.sqrt(float(self.specific_force @ self.specific_force))
+        axis = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < UPRIGHT else np.array([0.0, 0.0, -up[0]])
+        x = axis - up * float(axis @ up)
+        x /= math.sqrt(float(x @ x))
+        return np.array([x, np.cross(up, x), up])
+
+    def with_bias(self, bias: FloatArray, std: float) -> FootStandstill:
+        """Return the same with another gyro bias (3,) and its standard deviation, rad/s."""
+        return replace(self, angular_rate=bias, rate_std=std)
+
+
+def stillness(scatter: FloatArray, floor: float) -> FloatArray:
+    """Return how much a window of angular rate ``scatter`` (rad/s) counts.
+
+    The scatter says how far a foot moves, and with it how far the mean of the window is off.
+    Below ``floor`` it is noise and quantisation, and says nothing.
+    """
+    weight: FloatArray = (scatter**2 + floor**2) ** -2.0
+    return weight
+
+
+class FootStand:
+    """Mean of the windows of one standing foot, weighted by their stillness.
+
+    Updated as in West 1979 (Communications of the ACM 22(9)), with weights that fade.
+    """
+
+    def __init__(self, config: AlignmentConfig, overlap: int = SLIDES) -> None:
+        """Start empty; of ``overlap`` windows one is independent."""
+        self._floor, self._overlap = config.still_rate_std, overlap
+        self.clear()
+
+    def clear(self) -> None:
+        """Forget the windows."""
+        self.count = 0
+        self._weight = self._squares = 0.0
+        self._mean, self._spread = np.zeros(6), np.zeros(6)
+        # variance of the windows' means (rate, force) by what happens within them
+        self._within = np.zeros(2)
+        self._newest: Window | None = None
+
+    def add(self, window: Window) -> None:
+        """Take a window."""
+        keep = math.exp(-window.seconds / self._overlap / MEMORY_S)
+        scatter = np.array([window.rate_std])
+        weight = float(stillness(scatter, self._floor)[0])
+        self._weight = keep * self._weight + weight
+        self._squares = keep**2 * self._squares + weight**2
+        step = window.mean - self._mean
+        self._mean = self._mean + (weight / self._weight) * step
+        self._spread = keep * self._spread + weight * step * (window.mean - self._mean)
+        within = np.array([window.mean_rate_std, window.mean_force_std])
+        self._within = keep * self._within + weight * within**2
+        self._newest = window
+        self.count += 1
+
+    @property
+    def seconds(self) -> float:
+        """Length of the stand, s."""
+        if self._newest is None:
+            return 0.0
+        return self._newest.seconds * (1.0 + (self.count - 1) / self._overlap)
+
+    def result(self) -> FootStandstill:
+        """Return what the stand tells; windows overlap, so not all are independent.
+
+        The scatter of the windows' means says how far off their mean is; where there are few of
+        them, what happens within the windows says it.
+        """
+        assert self._newest is not None
+        windows = max(1.0, self._weight**2 / self._squares / self._overlap)
+        variance = self._spread / self._weight
+        between = float(variance[3:].max()) / max(1.0, windows - 1.0)
+        tilts = 0.5 * float(variance[:3].sum())  # two axes: along gravity next to nothing
+        within = self._within / self._weight / windows
+        trust = min(1.0, (windows - 1.0) / FEWEST)
+        rate_std, force_std = (
+            math.sqrt(trust * b + (1.0 - trust) * max(b, float(w)))
+            for b, w in zip((between, tilts), within, strict=True)
+        )
+        end_ns = self._newest.end_ns
+        return FootStandstill(
+            self._mean[:3], self._mean[3:], rate_std, force_std, self.seconds, end_ns
+        )

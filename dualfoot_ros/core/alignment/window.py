@@ -1,0 +1,112 @@
+"""Windows over the newest samples of one foot: their mean, their scatter, and motion in them."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..config_groups import AlignmentConfig
+from ..samples.series import FloatArray
+
+SLIDES = 25  # steps in which a window moves on by its length
+CORRELATION_S = 0.15  # time over which the angular rate of a standing foot is alike
+
+
+@dataclass(frozen=True)
+class Window:
+    """Mean and scatter of the samples (6,) of one foot: specific force, then angular rate.
+
+    Attributes
+    ----------
+    end_ns : stamp of its last sample
+    seconds : its length
+    """
+
+    mean: FloatArray
+    std: FloatArray
+    end_ns: int
+    seconds: float
+
+    @classmethod
+    def of(cls, samples: FloatArray, end_ns: int, seconds: float) -> Window:
+        """Return the window of ``samples`` (N, 6)."""
+        mean = samples.sum(axis=0) / len(samples)
+        off = samples - mean
+        std = np.sqrt((off * off).sum(axis=0) / len(samples))
+        return cls(mean, std, end_ns, seconds)
+
+    @property
+    def rate_std(self) -> float:
+        """Largest scatter of the angular rate about an axis, rad/s."""
+        return float(self.std[3:].max())
+
+    @property
+    def mean_rate_std(self) -> float:
+        """Standard deviation of the mean angular rate by what happens within the window, rad/s."""
+        return self.rate_std * math.sqrt(CORRELATION_S / max(self.seconds, CORRELATION_S))
+
+    @property
+    def mean_force_std(self) -> float:
+        """Standard deviation of the mean specific force across gravity, m/s^2, in the same way."""
+        across = math.sqrt(0.5 * float((self.std[:3] ** 2).sum()))
+        return across * math.sqrt(CORRELATION_S / max(self.seconds, CORRELATION_S))
+
+    def motion(self, config: AlignmentConfig, gravity: float) -> str | None:
+        """Return why this window is no standstill, or None."""
+        excess = abs(math.hypot(*self.mean[:3].tolist()) - gravity)
+        largest = float(np.abs(self.mean[3:]).max())
+        checks = (
+            ("angular rate scatter", self.rate_std, config.max_rate_std, "rad/s"),
+            ("specific force scatter", float(self.std[:3].max()), config.max_force_std, "m/s^2"),
+            ("mean angular rate", largest, config.max_rate, "rad/s"),
+            ("gravity error", excess, config.max_gravity_error, "m/s^2"),
+        )
+        for what, value, limit, unit in checks:
+            if value > limit:
+                return f"{what} {value:.3g} {unit}, allowed {limit:g} {unit}"
+        return None
+
+    def quiet(self, config: AlignmentConfig) -> bool:
+        """Return whether the foot is so still that the start need not wait for better."""
+        force_std = float(self.std[:3].max())
+        return self.rate_std <= config.quiet_rate_std and force_std <= config.quiet_force_std
+
+
+class WindowSlider:
+    """Slides a window of some seconds over the samples of one foot."""
+
+    def __init__(self, seconds: float) -> None:
+        """Start with no sample."""
+        self._length_ns = round(seconds * 1e9)
+        self._step_ns = max(1, self._length_ns // SLIDES)
+        self._samples: deque[tuple[int, FloatArray]] = deque()
+        self._due_ns: int | None = None
+
+    @property
+    def step_s(self) -> float:
+        """Time from one window to the next, s."""
+        return self._step_ns * 1e-9
+
+    def add(self, stamp_ns: int, values: FloatArray) -> Window | None:
+        """Take a sample (6,); return the window that ends with it, when one is due."""
+        samples = self._samples
+        samples.append((stamp_ns, values))
+        begin_ns = stamp_ns - self._length_ns
+        full = samples[0][0] <= begin_ns
+        while samples[0][0] <= begin_ns:
+            samples.popleft()
+        if not full or len(samples) < 5:
+            return None
+        if self._due_ns is not None and stamp_ns < self._due_ns:
+            return None
+        self._due_ns = stamp_ns + self._step_ns
+        block = np.array([sample for _, sample in samples])
+        return Window.of(block, stamp_ns, self._length_ns * 1e-9)
+
+    def clear(self) -> None:
+        """Forget the samples."""
+        self._samples.clear()
+        self._due_ns = None

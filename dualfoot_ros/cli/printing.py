@@ -50,6 +50,11 @@ def print_warning(verb: str, sentence: str) -> None:
     print(f"dualfoot {verb}: warning: {sentence}", file=sys.stderr)
 
 
+def print_note(line: str) -> None:
+    """Print a line that belongs neither to the results nor to the warnings."""
+    print(line, file=sys.stderr)
+
+
 def print_failures(verb: str, failures: Mapping[str, Failure]) -> None:
     """Name every run that failed, and why."""
     for name, failure in failures.items():

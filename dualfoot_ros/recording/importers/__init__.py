@@ -1,15 +1,17 @@
 """Sensor exports and data sets, turned into recordings; one module a format."""
 
-from .formats import FORMATS, Format, import_recording
+from .csv_tables import read_sensor, read_sensors
+from .formats import FORMATS, Format, import_recording, is_table
 from .options import ImportOptions
 from .pressure_csv import read_pressure
-from .xsens_dot import read_sensor
 
 __all__ = [
     "FORMATS",
     "Format",
     "ImportOptions",
     "import_recording",
+    "is_table",
     "read_pressure",
     "read_sensor",
+    "read_sensors",
 ]

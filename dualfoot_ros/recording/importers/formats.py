@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import cast
 
 import numpy as np
@@ -12,24 +13,32 @@ import numpy as np
 from ...core import ImuSeries, RecordingError
 from ..recording import Recording
 from .options import ImportOptions
+from .tables import LAYOUTS, SUFFIXES
 
 
 @dataclass(frozen=True)
 class Format:
-    """One format: its name, its description, and the module that loads it."""
+    """One format: its name, its description, and the module that loads it.
+
+    ``preset`` names the layout of its tables, where it is one of those.
+    """
 
     name: str
     description: str
     suffixes: tuple[str, ...]
     module: str
+    preset: str = ""
 
     def load(self, options: ImportOptions) -> Recording:
         """Load a recording; raise RecordingError when the files are not as the format says."""
         module = importlib.import_module(f".{self.module}", __package__)
-        return cast(Callable[[ImportOptions], Recording], module.load)(options)
+        load = cast(Callable[[ImportOptions], Recording], module.load)
+        return load(replace(options, preset=self.preset) if self.preset else options)
 
 
 FOLDER = "/"
+TABLES = "/tables"  # a folder that is no bag
+BAG_FILES = {".mcap", ".db3", ".yaml"}
 BAG_SUFFIXES = (FOLDER, ".mcap", ".db3")
 FORMATS = (
     Format(
@@ -39,17 +48,18 @@ FORMATS = (
         "dual_feet",
     ),
     Format(
-        "xsens-dot",
-        "two .csv exports of the Xsens DOT app, one a foot (--left, --right)",
-        (".csv",),
-        "xsens_dot",
-    ),
-    Format(
         "rosbag",
         "a bag of two sensor_msgs/Imu topics with other names, axes or units (--left-topic ...)",
         BAG_SUFFIXES,
         "rosbag",
     ),
+    Format(
+        "csv",
+        "any table as text; columns, time and units are found by names, values and motion",
+        (*sorted(SUFFIXES), TABLES),
+        "csv_tables",
+    ),
+    *(Format(layout.name, layout.about, (), "csv_tables", layout.name) for layout in LAYOUTS),
 )
 
 
@@ -71,9 +81,21 @@ def import_recording(options: ImportOptions, name: str = "auto") -> Recording:
     for file in files:
         if not file.exists():
             raise RecordingError(f"there is no file '{file}'")
-    suffix = FOLDER if files[0].is_dir() else files[0].suffix.lower()
-    recording = _format(name, suffix).load(options)
+    recording = _format(name, _kind(files[0])).load(options)
     return _shifted(recording, round(options.right_offset_s * 1e9))
+
+
+def is_table(path: Path) -> bool:
+    """Return whether ``path`` is a table as text, or a folder of some, by its name."""
+    return _kind(path) in (*SUFFIXES, TABLES)
+
+
+def _kind(path: Path) -> str:
+    """Return the ending of a file, FOLDER for a bag, TABLES for another folder."""
+    if not path.is_dir():
+        return path.suffix.lower()
+    held = {entry.suffix.lower() for entry in path.iterdir()}
+    return FOLDER if held & BAG_FILES or not held & (SUFFIXES | {""}) else TABLES
 
 
 def _format(name: str, suffix: str) -> Format:

@@ -67,7 +67,8 @@ def split(line: str, delimiter: str) -> list[str]:
 def is_number(cell: str, decimal: str) -> bool:
     """Return whether a cell is a number with this decimal sign."""
     sign = re.escape(decimal)
-    pattern = rf"[+-]?(\d+({sign}\d*)?|{sign}\d+)([eE][+-]?\d+)?|[+-]?(nan|inf)"
+    after = r"\d+" if decimal == "," else r"\d*"  # "1," is a cell with a comma, "1." a number
+    pattern = rf"[+-]?(\d+({sign}{after})?|{sign}\d+)([eE][+-]?\d+)?|[+-]?(nan|inf)"
     return re.fullmatch(pattern, cell.strip(), re.I) is not None
 
 
@@ -134,22 +135,29 @@ def _form(body: Sequence[str], layout: Layout, declared: str | None) -> tuple[st
 
 
 def _score(body: Sequence[str], delimiter: str, decimal: str) -> tuple[float, float]:
-    """Return the usual number of numbers in a row, and their share of the cells."""
+    """Return the number of numbers that a tenth of the rows have, and their share of the cells."""
     rows = [split(line, delimiter) for line in body]
     counts = sorted(sum(is_number(cell, decimal) for cell in row) for row in rows)
     cells = sum(len(row) for row in rows)
-    return (float(counts[len(counts) // 2]) if counts else 0.0, sum(counts) / max(1, cells))
+    return (float(counts[-1 - len(counts) // 10]) if counts else 0.0, sum(counts) / max(1, cells))
 
 
 def _usual_width(rows: Sequence[Sequence[str]], decimal: str) -> int:
-    numeric = [len(row) for row in rows if 2 * sum(is_number(c, decimal) for c in row) >= len(row)]
+    numeric = [len(row) for row in rows if _is_numeric(row, decimal)]
     widths = Counter(numeric or [len(row) for row in rows if row])
     return widths.most_common(1)[0][0] if widths else 0
 
 
+def _is_numeric(row: Sequence[str], decimal: str) -> bool:
+    """Return whether half of the cells that are not empty are numbers."""
+    filled = [cell for cell in row if cell]
+    return bool(filled) and 2 * sum(is_number(cell, decimal) for cell in filled) >= len(filled)
+
+
 def _first_row(rows: Sequence[Sequence[str]], width: int, decimal: str) -> int | None:
     """Return the first row that has numbers where most rows have."""
-    usual = [row for row in rows if len(row) == width][-SAMPLE:]
+    same = [row for row in rows if len(row) == width]
+    usual = [row for row in same if _is_numeric(row, decimal)][-SAMPLE:] or same
     numeric = [
         column
         for column in range(width)

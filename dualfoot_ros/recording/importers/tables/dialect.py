@@ -125,21 +125,15 @@ def _form(body: Sequence[str], layout: Layout, declared: str | None) -> tuple[st
     fixed = layout.delimiter or (declared if declared in DELIMITERS else None)
     delimiters = (fixed,) if fixed else DELIMITERS
     decimals = (layout.decimal,) if layout.decimal else (".", ",")
-    best, form = (-1.0, -1.0), (delimiters[0], decimals[0])
-    for delimiter in delimiters:
-        for decimal in decimals:
-            value = _score(body, delimiter, decimal)
-            if value > best:
-                best, form = value, (delimiter, decimal)
-    return form
+    forms = [(delimiter, decimal) for delimiter in delimiters for decimal in decimals]
+    return max(forms, key=lambda form: _score(body, *form))  # of equal ones the first
 
 
-def _score(body: Sequence[str], delimiter: str, decimal: str) -> tuple[float, float]:
-    """Return the number of numbers that a tenth of the rows have, and their share of the cells."""
+def _score(body: Sequence[str], delimiter: str, decimal: str) -> int:
+    """Return the number of numbers that a tenth of the rows have at least."""
     rows = [split(line, delimiter) for line in body]
     counts = sorted(sum(is_number(cell, decimal) for cell in row) for row in rows)
-    cells = sum(len(row) for row in rows)
-    return (float(counts[-1 - len(counts) // 10]) if counts else 0.0, sum(counts) / max(1, cells))
+    return counts[-1 - len(counts) // 10] if counts else 0
 
 
 def _usual_width(rows: Sequence[Sequence[str]], decimal: str) -> int:

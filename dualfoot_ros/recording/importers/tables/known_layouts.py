@@ -90,7 +90,7 @@ LAYOUTS = (
         "mbientlab",
         "Mbientlab MetaBase: accelerometer and gyroscope in a file each, in one folder",
         marks=("epoc|epoch", "elapsed", "x axis"),
-        parts=(Part("force", r".*accelerometer.*\.csv"), Part("rate", r".*gyroscope.*\.csv")),
+        parts=(Part("force", r".+_accelerometer.*\.csv"), Part("rate", r".+_gyroscope.*\.csv")),
         time_units=("ms",),
     ),
     Layout(

@@ -210,7 +210,7 @@ def _blank_lines(dialect: Dialect) -> bytes:
 def _repaired(data: bytes, dialect: Dialect) -> bytes:
     """Return the rows with EMPTY in empty cells, without rows of empty cells."""
     sign = re.escape(dialect.delimiter.encode())
-    data = re.sub(_blank_lines(dialect), b"", data + b"\n")
+    data = re.sub(_blank_lines(dialect), b"", data + b"\n").rstrip(b"\n")
     cell = rb'(?m)(?:(?<=%b)|^)[ \t]*(?:"[ \t]*")?(?:%b)?[ \t]*(?=%b|$)' % (sign, WORDS, sign)
     return re.sub(cell, repr(EMPTY).encode(), data)
 

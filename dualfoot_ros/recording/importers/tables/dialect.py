@@ -163,8 +163,9 @@ def _first_row(rows: Sequence[Sequence[str]], width: int, decimal: str) -> int |
     for place, row in enumerate(rows[:UNTIL_ROWS]):
         if len(row) != width:
             continue
-        right = sum(is_number(row[column], decimal) for column in numeric)
-        if right >= LIKE_DATA * len(numeric):
+        numbers = sum(is_number(row[column], decimal) for column in numeric)
+        fitting = sum(_fits(row[column], decimal) for column in numeric)
+        if numbers >= LEAST_COLUMNS and fitting >= LIKE_DATA * len(numeric):
             return place
     return None
 

@@ -92,25 +92,37 @@ def read_sensor_columns(
     values = cells.numbers
     first, second = len(parts[0]), len(parts[0]) + len(parts[1])
     apart = not increments and are_apart(cells.empty[:, :first], cells.empty[:, first:second])
-    keep = _kept(cells.empty[:, :second], rows, apart)
+    if apart:
+        return _of_two_streams(table, columns, request, rows)
+    keep = _kept(cells.empty[:, :second], rows)
     dropped = _dropped(table, keep, rows, request.foot)
-    source = time_source(table, columns, request.foot, keep)
-    stamps = stamps_of(source)
+    stamps = stamps_of(time_source(table, columns, request.foot, keep))
     kept = values[keep]
     blocks = (kept[:, :first], kept[:, first:second], kept[:, second:] if parts[2] else None)
     if increments:
+        text = "dv and dq, divided by the interval"
+        note = Assumption(request.foot, "increments", text, Origin.NAME)
         samples = _from_increments(stamps, *blocks)
-        note = Assumption(
-            request.foot, "increments", "dv and dq, divided by the interval", Origin.NAME
-        )
         return _in_si(table, columns, request, samples, [note, *dropped], True)
-    samples = _samples(stamps, *blocks, apart=apart)
-    return _in_si(table, columns, request, samples, dropped, False)
+    return _in_si(table, columns, request, Samples(stamps, *blocks), dropped, False)
 
 
-def _kept(empty: BoolArray, rows: BoolArray | None, apart: bool) -> BoolArray:
+def _of_two_streams(
+    table: TableFile, columns: Columns, request: Request, rows: BoolArray | None
+) -> Reading:
+    """Return the sensor of a table in which rows hold either force or rate."""
+    force, _ = read_stream(table, columns, "force", request.foot, rows)
+    rate, stamps = read_stream(table, columns, "rate", request.foot, rows)
+    stamp_ns, forces, rates = join(force, rate)
+    samples = Samples(replace(stamps, stamp_ns=stamp_ns), forces, rates, None)
+    text = f"interpolated to the {len(stamp_ns)} stamps of the gyro"
+    note = Assumption(request.foot, "accelerometer", text, Origin.VALUES)
+    return _in_si(table, columns, request, samples, [note], False)
+
+
+def _kept(empty: BoolArray, rows: BoolArray | None) -> BoolArray:
     """Return which rows have all that is needed."""
-    whole: BoolArray = ~np.asarray(empty.all(axis=1) if apart else empty.any(axis=1))
+    whole: BoolArray = np.asarray(~empty.any(axis=1))
     return whole if rows is None else whole & rows
 
 
@@ -166,15 +178,6 @@ def _time_unit(table: TableFile, columns: Columns, dated: bool) -> tuple[str | N
         return table.given.time_units[0], Origin.OPTION
     unit = columns.unit("time")
     return unit, Origin.NAME if unit else Origin.LAYOUT
-
-
-def _samples(
-    stamps: Stamps, force: FloatArray, rate: FloatArray, fields: FloatArray | None, *, apart: bool
-) -> Samples:
-    if not apart:
-        return Samples(stamps, force, rate, fields)
-    joined = join(Stream(stamps.stamp_ns, force), Stream(stamps.stamp_ns, rate))
-    return Samples(replace(stamps, stamp_ns=joined[0]), joined[1], joined[2], None)
 
 
 def _from_increments(
@@ -281,12 +284,12 @@ def _field(
 def read_stream(
     table: TableFile, columns: Columns, quantity: str, foot: str, rows: BoolArray | None = None
 ) -> tuple[Stream, Stamps]:
-    """Return one vector of a table that holds one quantity, or of some of its rows."""
+    """Return one vector of a table, of the rows that have it, with stamps of its own."""
     places = columns.vector(quantity)
     if places is None:
         raise RecordingError(missing(table.path, table.dialect, columns, table.facts))
     cells = table.numbers(places)
-    keep = _kept(cells.empty, rows, apart=False)
+    keep = _kept(cells.empty, rows)
     if int(keep.sum()) < LEAST_SAMPLES:
         raise RecordingError(f"'{table.path}' holds no sample of the {WORDS[quantity]}")
     stamps = stamps_of(time_source(table, columns, foot, keep))

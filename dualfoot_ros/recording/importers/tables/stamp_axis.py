@@ -21,7 +21,7 @@ LEAST_RATE, MOST_RATE = 8.0, 6000.0
 LIKELY_RATE = (10.0, 2000.0)  # Hz; units are a factor of 1000 apart, so one of them fits
 SAME_RATE = 1.1  # factor between the rate of the stamps and that of the header
 REPEATED = 0.2  # of the stamps; with more equal ones the time was rounded
-KNOWN_SPAN = 0.01  # of the span, for the rounding of a time that gives the rate
+RATE_ERROR = 1e-3  # of the rate, where it is found from a time that was rounded
 RATE_KEYS = ("rate", "frequency", "fs", "frequenz")
 
 
@@ -137,9 +137,14 @@ def _unit(source: TimeSource, values: FloatArray) -> tuple[str | None, Origin]:
 
 
 def _usual_step(values: FloatArray) -> float:
-    steps = np.diff(values[np.isfinite(values)])
-    steps = steps[steps > 0.0]
-    return float(np.median(steps)) if len(steps) else 0.0
+    """Return the median step, or the mean one of a time that was rounded."""
+    values = values[np.isfinite(values)]
+    steps = np.diff(values)
+    later = steps[steps > 0.0]
+    if not len(later):
+        return 0.0
+    rounded = float((steps == 0.0).mean()) > REPEATED
+    return float(values[-1] - values[0]) / len(steps) if rounded else float(np.median(later))
 
 
 def _to_ns(source: TimeSource, values: FloatArray, size: float) -> IntArray:
@@ -262,10 +267,13 @@ def _rebuilt(source: TimeSource, stamps: IntArray) -> Stamps:
 
 
 def _rate_of(stamps: IntArray, counts: IntArray, rounding: float, source: TimeSource) -> float:
-    span, samples = float(stamps[-1] - stamps[0]) * 1e-9, float(counts[-1] - counts[0])
-    if span <= 0.0 or rounding > KNOWN_SPAN * span:
+    span_s = float(stamps[-1] - stamps[0]) * 1e-9
+    # The slope of a line through N rounded stamps is right within rounding / (span sqrt(N)).
+    error = rounding / (span_s * float(np.sqrt(len(stamps)))) if span_s > 0.0 else 1.0
+    if error > RATE_ERROR:
         raise RecordingError(
             f"'{source.path}': the time in column '{source.name}' was rounded to {rounding:g} s, "
             "too coarse to tell the sampling rate; give it with --rate HZ"
         )
-    return samples / span
+    slope = np.polyfit((counts - counts[0]).astype(float), (stamps - stamps[0]) * 1e-9, 1)[0]
+    return 1.0 / float(slope)

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import FloatArray, ImuSeries
+from ..core import DEGREE, FloatArray, ImuSeries
+from ..recording import UnitEvidence, evidence_of
 from ..timing import AlignerConfig, clean
 from .standstill import Stand, first_stand
 from .stuck_values import Stuck, find_stuck
@@ -34,6 +35,7 @@ class Quality:
     peak_force, peak_rate : greatest absolute value of an axis
     clipped_force, clipped_rate : samples at the end of the range
     stuck : axes, or the whole sensor, that repeat their values
+    too_small : how many times too small the rates are for a foot that walks, 1 where they fit
     """
 
     samples: int
@@ -57,6 +59,7 @@ class Quality:
     clipped_force: int
     clipped_rate: int
     stuck: tuple[Stuck, ...] = ()
+    too_small: float = 1.0
 
     @property
     def duration_s(self) -> float:
@@ -96,7 +99,14 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
         clipped_force=clipped(good.specific_force, CLIP_FORCE),
         clipped_rate=clipped(good.angular_rate, CLIP_RATE),
         stuck=find_stuck(good),
+        too_small=_times_too_small(evidence_of(good)),
     )
+
+
+def _times_too_small(evidence: UnitEvidence) -> float:
+    """Return 57 when rates were turned from deg/s to rad/s once too often, else 1."""
+    again = 1.0 / DEGREE
+    return again if not evidence.rate_fits(1.0) and evidence.rate_fits(again) else 1.0
 
 
 def clipped(values: FloatArray, least: float) -> int:

@@ -8,6 +8,7 @@ from .read import read_bag
 from .recording import Correction, Recording
 from .reference import Reference
 from .topics import PRESSURE_TOPICS, Topics
+from .unit_evidence import UnitEvidence, evidence_of
 from .write import STORAGES, write_bag
 
 __all__ = [
@@ -20,8 +21,10 @@ __all__ = [
     "Reference",
     "TopicInfo",
     "Topics",
+    "UnitEvidence",
     "check_file",
     "check_target",
+    "evidence_of",
     "list_topics",
     "new_directory",
     "new_files",

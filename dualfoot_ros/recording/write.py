@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core import FEET, FloatArray, ImuSeries, IntArray, PoseSeries, RecordingError
 from . import cdr
@@ -36,16 +35,18 @@ class _Rows:
         """Take the stamps (N,), the values of a slice of messages, and the texts of all."""
         self._stamps, self._values, self._texts = stamp_ns, values, texts
         self._start = -BLOCK
-        self._block: NDArray[np.uint8] = np.empty((0, 0), dtype=np.uint8)
+        self._block = memoryview(b"")
+        self._length = 0
 
-    def __getitem__(self, place: int) -> NDArray[np.uint8]:
+    def __getitem__(self, place: int) -> memoryview:
         """Return the bytes of message ``place``."""
         if not self._start <= place < self._start + BLOCK:
             self._start = place - place % BLOCK
             part = slice(self._start, self._start + BLOCK)
-            self._block = cdr.encode(self._stamps[part], self._values(part), self._texts)
-        row: NDArray[np.uint8] = self._block[place - self._start]
-        return row
+            rows = cdr.encode(self._stamps[part], self._values(part), self._texts)
+            self._block, self._length = memoryview(rows.tobytes()), rows.shape[1]
+        at = (place - self._start) * self._length
+        return self._block[at : at + self._length]
 
 
 class _Channel(NamedTuple):

@@ -126,6 +126,8 @@ def _on_one_axis(readings: dict[str, Reading]) -> dict[str, IntArray]:
 
 
 def _turned(series: ImuSeries, stamp_ns: IntArray, rotation: FloatArray) -> ImuSeries:
+    if np.array_equal(rotation, np.eye(3)):
+        return replace(series, stamp_ns=stamp_ns)
     field = series.magnetic_field
     return ImuSeries(
         stamp_ns,

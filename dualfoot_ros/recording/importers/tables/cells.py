@@ -121,10 +121,9 @@ def _check_widths(data: bytes, raw: RawText, dialect: Dialect) -> None:
 def _count(data: bytes, delimiter: bytes) -> NDArray[np.int64]:
     """Return the number of cells of each line."""
     signs = np.frombuffer(data, dtype=np.uint8)
-    starts = np.concatenate(([0], np.flatnonzero(signs == ord("\n")) + 1))
-    starts = starts[starts < len(signs)]
-    marks = (signs == ord(delimiter)).view(np.uint8)
-    counts: NDArray[np.int64] = np.add.reduceat(marks, starts, dtype=np.int64) + 1
+    ends = np.append(np.flatnonzero(signs == ord("\n")), len(signs))
+    before = np.searchsorted(np.flatnonzero(signs == ord(delimiter)), ends)
+    counts: NDArray[np.int64] = np.diff(before, prepend=0) + 1
     return counts
 
 
@@ -165,10 +164,14 @@ def read_numbers(body: Body, dialect: Dialect, places: Sequence[int], raw: RawTe
     return Cells(np.where(empty, np.nan, numbers), empty)
 
 
+def is_exact(cells: Sequence[str]) -> bool:
+    """Return whether cells are whole numbers that a float does not hold."""
+    return bool(cells) and all(cell.isdigit() and len(cell) >= EXACT_DIGITS for cell in cells)
+
+
 def read_exact(body: Body, dialect: Dialect, place: int) -> IntArray | None:
     """Return (N,) whole numbers of a column that a float does not hold, or None."""
-    cells = [row[place] for row in dialect.sample]
-    if not cells or not all(c.isdigit() and len(c) >= EXACT_DIGITS for c in cells):
+    if not is_exact([row[place] for row in dialect.sample]):
         return None
     try:
         return _load(body.data, dialect, [place], np.dtype(np.int64))[:, 0]

@@ -88,7 +88,7 @@ def read_sensor_columns(
     pair = ("push", "turn") if increments else ("force", "rate")
     parts = [vectors[name] or [] for name in pair]
     parts.append(vectors["field"] or [])
-    cells = table.numbers([place for part in parts for place in part])
+    cells = table.numbers([place for part in parts for place in part], _clocks(table, columns))
     values = cells.numbers
     first, second = len(parts[0]), len(parts[0]) + len(parts[1])
     apart = not increments and are_apart(cells.empty[:, :first], cells.empty[:, first:second])
@@ -105,6 +105,12 @@ def read_sensor_columns(
         samples = _from_increments(stamps, *blocks)
         return _in_si(table, columns, request, samples, [note, *dropped], True)
     return _in_si(table, columns, request, Samples(stamps, *blocks), dropped, False)
+
+
+def _clocks(table: TableFile, columns: Columns) -> list[int]:
+    """Return the columns of time and counter that are read together with the vectors."""
+    found = [columns.places[role] for role in ("time", "counter") if role in columns.places]
+    return [place for place in found if table.holds_numbers(place)]
 
 
 def _of_two_streams(

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from ....core import FloatArray, IntArray, RecordingError
+from ....core import BoolArray, FloatArray, IntArray, RecordingError
 from .assumptions import Assumption, Origin
-from .cells import Body, Cells, read_body, read_exact, read_numbers, read_words
+from .cells import Body, Cells, is_exact, read_body, read_exact, read_numbers, read_words
 from .column_words import read_name
 from .dialect import NAMES_OF_DELIMITERS, Dialect, find_dialect, is_number
 from .known_layouts import recognise
@@ -40,15 +40,27 @@ class TableFile:
     facts: Mapping[str, str]
     given: Layout
     known: Layout | None
+    _read: dict[int, tuple[FloatArray, BoolArray]] = field(default_factory=dict, repr=False)
 
     @property
     def layout(self) -> Layout:
         """Everything that is known about the layout."""
         return self.given.over(self.known or Layout())
 
-    def numbers(self, places: Sequence[int]) -> Cells:
-        """Return (N, len(places)) numbers."""
-        return read_numbers(self.body, self.dialect, places, self.raw)
+    def numbers(self, places: Sequence[int], also: Sequence[int] = ()) -> Cells:
+        """Return (N, len(places)) numbers; ``also`` are read on the way, for later calls."""
+        wanted = [place for place in dict.fromkeys([*places, *also]) if place not in self._read]
+        if wanted:
+            cells = read_numbers(self.body, self.dialect, wanted, self.raw)
+            for column, place in enumerate(wanted):
+                self._read[place] = (cells.numbers[:, column], cells.empty[:, column])
+        numbers, empty = zip(*(self._read[place] for place in places), strict=True)
+        return Cells(np.column_stack(numbers), np.column_stack(empty))
+
+    def holds_numbers(self, place: int) -> bool:
+        """Return whether a column holds numbers that a float holds exactly enough."""
+        cells = [row[place] for row in self.dialect.sample]
+        return any(is_number(cell, self.dialect.decimal) for cell in cells) and not is_exact(cells)
 
     def words(self, place: int) -> list[str]:
         """Return N cells as text."""

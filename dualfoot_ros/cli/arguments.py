@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..core import FEET, ConfigError, RecordingError
 from ..inspection import require_usable
 from ..recording import STORAGES, Recording, Topics, read_bag
-from ..recording.importers import is_table
+from ..recording.importers import is_export
 from .progress import progress
 from .table_options import add_intake_arguments, import_in_memory
 
@@ -158,7 +158,7 @@ def is_bag(args: argparse.Namespace) -> bool:
     """
     if args.bag is None and len(_files(args)) != len(FEET):
         raise RecordingError("no recording given; allowed is BAG, or --left FILE --right FILE")
-    return args.bag is not None and not _files(args) and not is_table(Path(args.bag))
+    return args.bag is not None and not _files(args) and not is_export(Path(args.bag))
 
 
 def load_bag(path: str, args: argparse.Namespace) -> Recording:

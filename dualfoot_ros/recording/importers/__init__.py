@@ -1,7 +1,7 @@
 """Sensor exports and data sets, turned into recordings; one module a format."""
 
 from .csv_tables import read_sensor, read_sensors
-from .formats import FORMATS, Format, import_recording, is_table
+from .formats import FORMATS, Format, import_recording, is_export, is_table
 from .options import ImportOptions
 from .pressure_csv import read_pressure
 
@@ -10,6 +10,7 @@ __all__ = [
     "Format",
     "ImportOptions",
     "import_recording",
+    "is_export",
     "is_table",
     "read_pressure",
     "read_sensor",

@@ -11,6 +11,7 @@ from typing import cast
 import numpy as np
 
 from ...core import ImuSeries, RecordingError
+from ..open_bag import METADATA
 from ..recording import Recording
 from .options import ImportOptions
 from .tables import LAYOUTS, SUFFIXES
@@ -38,7 +39,7 @@ class Format:
 
 FOLDER = "/"
 TABLES = "/tables"  # a folder that is no bag
-BAG_FILES = {".mcap", ".db3", ".yaml"}
+BAG_SUFFIX_FILES = {".mcap", ".db3"}
 BAG_SUFFIXES = (FOLDER, ".mcap", ".db3")
 FORMATS = (
     Format(
@@ -90,12 +91,20 @@ def is_table(path: Path) -> bool:
     return _kind(path) in (*SUFFIXES, TABLES)
 
 
+def is_export(path: Path) -> bool:
+    """Return whether ``path`` is to be imported, and is no bag, by its name."""
+    kind = _kind(path)
+    return any(kind in known.suffixes for known in FORMATS if known.module != "rosbag")
+
+
 def _kind(path: Path) -> str:
     """Return the ending of a file, FOLDER for a bag, TABLES for another folder."""
     if not path.is_dir():
         return path.suffix.lower()
+    if (path / METADATA).exists():
+        return FOLDER
     held = {entry.suffix.lower() for entry in path.iterdir()}
-    return FOLDER if held & BAG_FILES or not held & (SUFFIXES | {""}) else TABLES
+    return FOLDER if held & BAG_SUFFIX_FILES or not held & (SUFFIXES | {""}) else TABLES
 
 
 def _format(name: str, suffix: str) -> Format:

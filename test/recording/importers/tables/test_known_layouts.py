@@ -329,6 +329,7 @@ def test_a_folder_of_a_device_is_recognised_and_read(tmp_path, name):
     assert found.notes["format"] == name
     for foot, series in walk().items():
         same(found.imu(foot), series)
+    (tmp_path / "mine.yaml").write_text("a layout that was saved here makes no bag of it")
     both = import_recording(ImportOptions((tmp_path,)))
     np.testing.assert_array_equal(both.left.stamp_ns, found.left.stamp_ns)
 

@@ -129,11 +129,12 @@ def _turned(series: ImuSeries, stamp_ns: IntArray, rotation: FloatArray) -> ImuS
     if np.array_equal(rotation, np.eye(3)):
         return replace(series, stamp_ns=stamp_ns)
     field = series.magnetic_field
-    return ImuSeries(
-        stamp_ns,
-        series.specific_force @ rotation.T,
-        series.angular_rate @ rotation.T,
-        None if field is None else field @ rotation.T,
+    return replace(
+        series,
+        stamp_ns=stamp_ns,
+        specific_force=series.specific_force @ rotation.T,
+        angular_rate=series.angular_rate @ rotation.T,
+        magnetic_field=None if field is None else field @ rotation.T,
     )
 
 

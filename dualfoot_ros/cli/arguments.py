@@ -6,11 +6,12 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core import ConfigError
+from ..core import FEET, ConfigError, RecordingError
 from ..inspection import require_usable
 from ..recording import STORAGES, Recording, Topics, find_topics, read_bag
-from .printing import print_note
-from .progress import progress
+from ..recording.importers import is_export
+from .printing import print_note, progress
+from .table_options import add_intake_arguments, import_in_memory
 
 if TYPE_CHECKING:
     from ..core import TrackerConfig
@@ -133,8 +134,44 @@ def read_topics(path: str, args: argparse.Namespace) -> Topics:
     return choice.topics
 
 
+def add_recording_argument(parser: argparse.ArgumentParser) -> None:
+    """Add ``BAG``, and the options for files of sensors in its place (:func:`load_bag`)."""
+    parser.add_argument(
+        "bag", metavar="BAG", nargs="?", help=f"{BAG}, or a file that 'import' reads"
+    )
+    add_intake_arguments(parser)
+
+
+def recording_name(args: argparse.Namespace) -> str:
+    """Return the name of the recording that ``args`` choose: the bag, or its files."""
+    return str(args.bag) if args.bag else " and ".join(map(str, _files(args)))
+
+
+def _files(args: argparse.Namespace) -> list[Path]:
+    """Return the files of the feet of a verb that takes them."""
+    return [file for foot in FEET if (file := getattr(args, foot, None)) is not None]
+
+
+def is_bag(args: argparse.Namespace) -> bool:
+    """Return whether the recording is a bag, and no file to import.
+
+    Raises
+    ------
+    RecordingError
+        When there is neither a bag nor a file for each foot.
+    """
+    if args.bag is None and len(_files(args)) != len(FEET):
+        raise RecordingError("no recording given; allowed is BAG, or --left FILE --right FILE")
+    return args.bag is not None and not _files(args) and not is_export(Path(args.bag))
+
+
 def load_bag(path: str, args: argparse.Namespace) -> Recording:
-    """Read the bag ``path`` with the topics of ``args``, showing progress."""
+    """Read the bag ``path`` with the topics of ``args``, showing progress.
+
+    Of a verb with :func:`add_recording_argument`, files of sensors are imported in memory.
+    """
+    if hasattr(args, "left") and not is_bag(args):
+        return import_in_memory(args.bag, args)
     topics = read_topics(path, args)
     with progress(f"reading {path}") as update:
         return read_bag(path, topics=topics, progress=update)

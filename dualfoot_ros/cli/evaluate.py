@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 from .arguments import (
     add_align_argument,
-    add_bag_argument,
     add_config_arguments,
     add_json_argument,
     add_method_argument,
     add_no_plots_argument,
+    add_recording_argument,
     add_report_arguments,
     add_usable_arguments,
     load_bag,
+    recording_name,
     tracker_config,
 )
 from .printing import print_json, print_paths, table_console
@@ -43,7 +44,7 @@ examples:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    add_bag_argument(parser)
+    add_recording_argument(parser)
     add_method_argument(parser)
     add_config_arguments(parser)
     parser.add_argument(
@@ -100,7 +101,7 @@ def run(args: argparse.Namespace) -> int:
     config = tracker_config(args)
     result = evaluation.run(load_bag(args.bag, args), config, options)
     metrics = {
-        "bag": args.bag,
+        "bag": recording_name(args),
         **result.to_dict(),
         "parameters": config.to_mapping(),
         "calibration": {foot: list(c.triads()) for foot, c in calibration.items()},
@@ -132,7 +133,9 @@ def _write(args: argparse.Namespace, result: Evaluation, metrics: dict[str, Any]
         if not args.no_plots:
             from ..evaluation.reports.plots import draw_all
 
-            paths += draw_all({result.trajectory.method: result}, folder, Path(args.bag).name)
+            paths += draw_all(
+                {result.trajectory.method: result}, folder, Path(recording_name(args)).name
+            )
     return [args.output / path.name for path in paths]
 
 
@@ -145,7 +148,7 @@ def _print(
         print_json(metrics)
         return
     console = table_console()
-    console.print(walk_table(result, f"{args.bag}, method {result.trajectory.method}"))
+    console.print(walk_table(result, f"{recording_name(args)}, method {result.trajectory.method}"))
     for note in result.notes:
         console.print(note)
     print_paths(paths)

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import FloatArray, ImuSeries, IntArray
+from ..core import DEGREE, FloatArray, ImuSeries, IntArray
+from ..recording import UnitEvidence, evidence_of
 from ..timing import AlignerConfig, clean
 from .standstill import Stand, first_stand
 from .stuck_values import Stuck, find_stuck
@@ -36,6 +37,7 @@ class Quality:
     stuck : axes, or the whole sensor, that repeat their values
     off_grid_s : s, 95 % of the intervals differ from a multiple of the median by less; lost
         samples leave multiples, times of arrival do not
+    too_small : how many times too small the rates are for a foot that walks, 1 where they fit
     """
 
     samples: int
@@ -60,6 +62,7 @@ class Quality:
     clipped_rate: int
     stuck: tuple[Stuck, ...] = ()
     off_grid_s: float = 0.0
+    too_small: float = 1.0
 
     @property
     def duration_s(self) -> float:
@@ -100,6 +103,7 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
         clipped_rate=clipped(good.angular_rate, CLIP_RATE),
         stuck=find_stuck(good),
         off_grid_s=_off_grid(regular) * 1e-9,
+        too_small=_times_too_small(evidence_of(good)),
     )
 
 
@@ -110,6 +114,12 @@ def _off_grid(steps: IntArray) -> float:
         return 0.0
     multiples = np.maximum(1.0, np.rint(steps / median))
     return float(np.quantile(np.abs(steps - multiples * median), 0.95))
+
+
+def _times_too_small(evidence: UnitEvidence) -> float:
+    """Return 57 when rates were turned from deg/s to rad/s once too often, else 1."""
+    again = 1.0 / DEGREE
+    return again if not evidence.rate_fits(1.0) and evidence.rate_fits(again) else 1.0
 
 
 def clipped(values: FloatArray, least: float) -> int:

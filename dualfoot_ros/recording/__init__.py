@@ -11,6 +11,7 @@ from .storage.bag_source import TopicInfo
 from .storage.bag_writer import new_bag
 from .topic_choice import TopicChoice, choose_topics, find_topics, topics_of_foot
 from .topics import IMU_TYPE, PRESSURE_TOPICS, Topics
+from .unit_evidence import UnitEvidence, evidence_of
 from .write import STORAGES, write_bag
 
 __all__ = [
@@ -25,9 +26,11 @@ __all__ = [
     "TopicChoice",
     "TopicInfo",
     "Topics",
+    "UnitEvidence",
     "check_file",
     "check_target",
     "choose_topics",
+    "evidence_of",
     "find_topics",
     "list_topics",
     "new_bag",

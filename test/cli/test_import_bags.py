@@ -127,8 +127,8 @@ def test_several_topics_of_a_foot_are_asked_for_by_name(tmp_path, dualfoot):
 
 CSV_OPTIONS = [
     (
-        ["--force-unit", "g"],
-        "--force-unit does not apply to the format xsens-dot; it is for rosbag",
+        ["--capture-rate", "100"],
+        "--capture-rate does not apply to the format xsens-dot; it is for capture",
     ),
     (["--stamps", "log"], "--stamps does not apply to the format xsens-dot"),
     (["--left-topic", "/a"], "--left-topic does not apply"),
@@ -152,3 +152,13 @@ def test_an_option_of_exports_is_refused_for_a_bag(tmp_path, dualfoot):
     done = dualfoot("import", bag, "--field-scale", "1e-5", "-o", "new", cwd=tmp_path)
     assert done.returncode == 2
     assert "--field-scale does not apply to the format rosbag" in done.stderr
+
+
+def test_a_layout_of_a_table_is_refused_for_a_bag(tmp_path, dualfoot):
+    (tmp_path / "walk.mcap").write_bytes(b"")
+    (tmp_path / "mine.yaml").write_text("format: dualfoot_layout\n")
+    for option in (["--rate", "100"], ["--layout", "mine.yaml"]):
+        done = dualfoot("import", "walk.mcap", *option, "-o", "walk", cwd=tmp_path)
+        assert done.returncode == 2
+        assert f"{option[0]}" in done.stderr
+        assert "does not apply to the format rosbag; it is for csv" in done.stderr

@@ -50,7 +50,7 @@ def _describe_force(reading: str, gravity: float) -> tuple[str, str]:
 
 
 def find_rate_unit(foot: str, quality: Quality) -> Iterator[Finding]:
-    """Yield a finding when the foot turns faster than any foot does in rad/s."""
+    """Yield a finding when the foot turns faster than any foot, or slower than one that walks."""
     if quality.high_rate > FASTEST_FOOT:
         yield Finding(
             FindingKind.RATE_UNIT,
@@ -59,5 +59,16 @@ def find_rate_unit(foot: str, quality: Quality) -> Iterator[Finding]:
             "so it is in deg/s and not in rad/s",
             "convert the bag with 'dualfoot import BAG --rate-unit deg/s -o NEW', and live set "
             "the unit in the driver or units.angular_rate of imu_adapter",
+            foot,
+        )
+    elif quality.too_small > 1.0:
+        yield Finding(
+            FindingKind.RATE_UNIT,
+            Severity.WARNING,
+            f"{foot} foot: the accelerometer shows a walk, but the angular rate stays below "
+            f"{quality.high_rate:.3g} rad/s for 98 % of the time: the gyro reads about "
+            f"{quality.too_small:.0f} times too little, as when rad/s were taken for deg/s",
+            "correct the unit in the driver (live: units.angular_rate of imu_adapter) and record "
+            "again, or import the export again with --rate-unit rad/s",
             foot,
         )

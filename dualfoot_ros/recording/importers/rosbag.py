@@ -38,8 +38,9 @@ def load(options: ImportOptions) -> Recording:
     if len(options.sources) != 1 or options.left or options.right:
         raise RecordingError("a bag holds both feet; give exactly one, without --left and --right")
     rotation = np.array(axes_matrix(options.axes))
-    force = _scale("force unit", options.force_unit, FORCE_UNITS)
-    rate = _scale("rate unit", options.rate_unit, RATE_UNITS)
+    force_unit, rate_unit = options.force_unit or "m/s^2", options.rate_unit or "rad/s"
+    force = _scale("force unit", force_unit, FORCE_UNITS)
+    rate = _scale("rate unit", rate_unit, RATE_UNITS)
     choice = find_topics(options.sources[0], options.left_topic, options.right_topic)
     recording, logged = read_logged(options.sources[0], topics=choice.topics)
     _check_topics(options.sources[0], recording)
@@ -51,7 +52,7 @@ def load(options: ImportOptions) -> Recording:
         "source": options.sources[0].name,
         "format": "rosbag",
         "axes": f"forward, left, up were {options.axes}",
-        "units": f"specific force was {options.force_unit}, angular rate {options.rate_unit}",
+        "units": f"specific force was {force_unit}, angular rate {rate_unit}",
     }
     return replace(
         recording,

@@ -23,8 +23,8 @@ def imu_message(types, header, force, rate):
     )
 
 
-def ros1_bag(path, topics):
-    """Write a ``.bag`` of ROS 1; ``topics`` is topic -> ImuSeries."""
+def ros1_bag(path, topics, texts=None):
+    """Write a ``.bag`` of ROS 1; ``topics`` is topic -> ImuSeries, ``texts`` topic -> text."""
     time, header = (
         STORE1.types[t] for t in ("builtin_interfaces/msg/Time", "std_msgs/msg/Header")
     )
@@ -38,6 +38,11 @@ def ros1_bag(path, topics):
                     STORE1.types, head, series.specific_force[k], series.angular_rate[k]
                 )
                 writer.write(connection, stamp, STORE1.serialize_ros1(message, kind))
+        for topic, text in (texts or {}).items():
+            string = "std_msgs/msg/String"
+            connection = writer.add_connection(topic, string, typestore=STORE1)
+            message = STORE1.types[string](data=text)
+            writer.write(connection, 0, STORE1.serialize_ros1(message, string))
     return path
 
 

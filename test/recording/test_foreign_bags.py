@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from dualfoot_ros.core import RecordingError
+from dualfoot_ros.core import Increments, RecordingError
 from dualfoot_ros.inspection import check_usable
 from dualfoot_ros.recording import Recording, find_topics, list_topics, read_bag, write_bag
 
@@ -32,6 +32,12 @@ def test_a_bag_of_ros_1_is_read_to_the_bit(tmp_path, feet):
     assert read.left_frame == "imu"
     assert read.cut == ""
     assert list_topics(path)["/left/imu/data_raw"].messages == 300
+
+
+def test_a_bag_of_ros_1_says_what_its_samples_are(tmp_path, feet):
+    path = ros1_bag(tmp_path / "walk.bag", feet, {"/left/imu/increments": "averaged"})
+    read = read_bag(path)
+    assert (read.left.increments, read.right.increments) == (Increments.AVERAGED, None)
 
 
 def test_a_bag_of_ros_1_that_is_none_is_a_sentence(tmp_path):

@@ -188,7 +188,26 @@ def test_halves_in_messages_apart_become_samples_at_the_stamps_of_the_rate_of_tu
         assert sample.ticks == (start + ticks) % 2**32
         assert sample.specific_force == pytest.approx((ticks / 100, ticks / 50, 9.8), abs=1e-5)
         assert sample.angular_rate[2] == (20, 60)[n % 2]
+        assert sample.increments is Increments.SAMPLED
     assert not decoder.counters["incomplete"]
+
+
+def test_a_calibrated_rate_beside_an_interpolated_force_is_of_no_kind():
+    data = b"".join(
+        apart(key, 100 * k + d, (1, 2, 3))
+        for k in range(9)
+        for key, d in ((0x4020, 0), (0x8020, 5))
+    )
+    assert {s.increments for s in XbusDecoder().feed(data, 5)} == {None}
+
+
+def test_messages_apart_between_increments_do_not_shorten_their_interval():
+    messages = []
+    for k in range(6):
+        messages.append(increments(k, (0.1, 0, 0), (0, 0, 0.1)))
+        messages.append(apart(0x8040, 100 * k + 50, (9, 9, 9)))
+    samples = XbusDecoder().feed(b"".join(messages), 5)
+    assert {round(s.angular_rate[0], 4) for s in samples} == {10.0}
 
 
 def test_nothing_is_interpolated_where_accelerations_are_missing():

@@ -280,13 +280,10 @@ def test_nothing_but_the_command_line_prints():
 
 def test_the_walk_sees_relative_and_absolute_imports_at_any_depth():
     seen = set(imported(PACKAGE / "recording" / "write.py"))
-    assert {
-        "dualfoot_ros.core.FloatArray",
-        "dualfoot_ros.recording.cdr",
-        "rosbags.rosbag2",
-    } <= seen
-    early = set(imported(PACKAGE / "recording" / "write.py", top_level_only=True))
-    assert "rosbags.rosbag2" not in early
+    assert {"dualfoot_ros.core.FloatArray", "dualfoot_ros.recording.cdr"} <= seen
+    deeper = PACKAGE / "recording" / "storage" / "bag_writer.py"
+    assert {"dualfoot_ros.core.RecordingError", "rosbags.rosbag2"} <= set(imported(deeper))
+    assert "rosbags.rosbag2" not in set(imported(deeper, top_level_only=True))
     assert target("dualfoot_ros.recording.read") == "recording"
     assert target("dualfoot_ros.settings.presets") == "settings"
 

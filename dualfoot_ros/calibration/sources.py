@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from ..core import FEET, FORWARD_LEFT_UP, CalibrationError, ImuSeries
-from ..recording import Topics, read_bag
-from ..recording.importers import read_sensor
+from ..recording import Topics, find_topics, read_bag
+from ..recording.importers import ImportOptions, is_table, read_sensors
 from .file import ANY
 
-EXPORT = ".csv"
 Named = tuple[str, ImuSeries]
 
 
@@ -20,11 +20,13 @@ def load_sources(
     *,
     axes: str = FORWARD_LEFT_UP,
     topics: Topics | None = None,
+    tables: ImportOptions | None = None,
 ) -> dict[str, list[Named]]:
     """Return the recordings by sensor: "left", "right", or "sensor" where no foot is known.
 
-    A .csv export holds one sensor, that of ``foot``; a bag holds both, of which ``foot`` may
-    choose one.
+    A table (.csv and the like) holds one sensor as a rule, that of ``foot``; a bag holds both, of
+    which ``foot`` may choose one.  ``tables`` says how tables are to be read.  Without ``topics``
+    those of a bag are found by their names.
 
     Raises
     ------
@@ -37,7 +39,9 @@ def load_sources(
     for path in paths:
         if not path.exists():
             raise CalibrationError(f"there is no file '{path}'")
-        for name, series in _load(path, foot, axes, topics):
+        for name, series in _load(
+            path, foot, replace(tables or ImportOptions(), axes=axes), topics
+        ):
             sources.setdefault(name, []).append((path.stem or str(path), series))
     if ANY in sources and len(sources) > 1:
         raise CalibrationError(
@@ -46,18 +50,22 @@ def load_sources(
     return sources
 
 
-def _load(path: Path, foot: str | None, axes: str, topics: Topics | None) -> list[Named]:
-    if path.suffix.lower() == EXPORT:
-        return [(foot or ANY, read_sensor(path, axes))]
-    if axes != FORWARD_LEFT_UP:
+def _load(
+    path: Path, foot: str | None, tables: ImportOptions, topics: Topics | None
+) -> list[Named]:
+    if is_table(path):
+        sensors = read_sensors(path, tables, foot or "")
+        named = {(foot or ANY) if name == "" else name: series for name, series in sensors.items()}
+        return [item for item in named.items() if foot in (None, item[0])]
+    if tables.axes != FORWARD_LEFT_UP:
         raise CalibrationError(
             f"'{path}' is a bag, whose axes are forward-left-up already; --axes is for exports"
         )
-    recording = read_bag(path, topics=topics)
+    recording = read_bag(path, topics=topics or find_topics(path).topics)
     feet = FEET if foot is None else (foot,)
     held = [(name, series) for name in feet if (series := recording.imu(name)) is not None]
     if not any(len(series) for _, series in held):
-        topic = recording.topics.of(feet[0]).imu
+        topic = recording.topics.of(feet[0]).samples
         present = ", ".join(recording.imu_topics) or "none"
         raise CalibrationError(
             f"'{path}' has no samples of {' or '.join(feet)} ('{topic}'); its sensor_msgs/Imu "

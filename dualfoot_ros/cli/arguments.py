@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..core import ConfigError
+from ..core import FEET, ConfigError, RecordingError
 from ..inspection import require_usable
-from ..recording import STORAGES, Recording, Topics, read_bag
-from .progress import progress
+from ..recording import STORAGES, Recording, Topics, find_topics, read_bag
+from ..recording.importers import is_export
+from .printing import print_note, progress
+from .table_options import add_intake_arguments, import_in_memory
 
 if TYPE_CHECKING:
     from ..core import TrackerConfig
 
     Arguments = argparse._ActionsContainer  # noqa: SLF001  (a parser or a group; it has no other name)
 
-BAG = "rosbag2 folder (or its one file)"
+BAG = "rosbag2 folder, or a .mcap, .db3 or (ROS 1) .bag file"
 MOST_JOBS = 256
 
 
@@ -34,8 +35,8 @@ def add_topic_arguments(parser: argparse.ArgumentParser) -> None:
         group.add_argument(
             f"--{foot}-topic",
             metavar="TOPIC",
-            default=topics.of(foot).imu,
-            help=f"sensor_msgs/Imu topic of the {foot} foot (default: %(default)s)",
+            help=f"sensor_msgs/Imu topic of the {foot} foot, or two topics ACCELEROMETER,GYRO "
+            f"(default: {topics.of(foot).imu}, else the one whose name says {foot})",
         )
 
 
@@ -142,19 +143,61 @@ def add_storage_arguments(parser: Arguments) -> None:
     parser.add_argument("--overwrite", action="store_true", help="replace an existing bag")
 
 
-def read_topics(args: argparse.Namespace) -> Topics:
-    """Return the topics that ``args`` names."""
-    usual = Topics()
-    return Topics(
-        left=replace(usual.left, imu=args.left_topic),
-        right=replace(usual.right, imu=args.right_topic),
+def read_topics(path: str, args: argparse.Namespace) -> Topics:
+    """Return the topics that ``args`` names, or that the bag ``path`` has; say which were found.
+
+    Raises
+    ------
+    RecordingError
+        When the bag cannot be read, or several topics could be those of a foot.
+    """
+    choice = find_topics(path, args.left_topic, args.right_topic)
+    for sentence in choice.sentences:
+        print_note(sentence)
+    return choice.topics
+
+
+def add_recording_argument(parser: argparse.ArgumentParser) -> None:
+    """Add ``BAG``, and the options for files of sensors in its place (:func:`load_bag`)."""
+    parser.add_argument(
+        "bag", metavar="BAG", nargs="?", help=f"{BAG}, or a file that 'import' reads"
     )
+    add_intake_arguments(parser)
+
+
+def recording_name(args: argparse.Namespace) -> str:
+    """Return the name of the recording that ``args`` choose: the bag, or its files."""
+    return str(args.bag) if args.bag else " and ".join(map(str, _files(args)))
+
+
+def _files(args: argparse.Namespace) -> list[Path]:
+    """Return the files of the feet of a verb that takes them."""
+    return [file for foot in FEET if (file := getattr(args, foot, None)) is not None]
+
+
+def is_bag(args: argparse.Namespace) -> bool:
+    """Return whether the recording is a bag, and no file to import.
+
+    Raises
+    ------
+    RecordingError
+        When there is neither a bag nor a file for each foot.
+    """
+    if args.bag is None and len(_files(args)) != len(FEET):
+        raise RecordingError("no recording given; allowed is BAG, or --left FILE --right FILE")
+    return args.bag is not None and not _files(args) and not is_export(Path(args.bag))
 
 
 def load_bag(path: str, args: argparse.Namespace) -> Recording:
-    """Read the bag ``path`` with the topics of ``args``, showing progress."""
+    """Read the bag ``path`` with the topics of ``args``, showing progress.
+
+    Of a verb with :func:`add_recording_argument`, files of sensors are imported in memory.
+    """
+    if hasattr(args, "left") and not is_bag(args):
+        return import_in_memory(args.bag, args)
+    topics = read_topics(path, args)
     with progress(f"reading {path}") as update:
-        return read_bag(path, topics=read_topics(args), progress=update)
+        return read_bag(path, topics=topics, progress=update)
 
 
 def load_usable(path: str, args: argparse.Namespace) -> Recording:

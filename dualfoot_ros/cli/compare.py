@@ -21,8 +21,7 @@ from .arguments import (
     check_counts,
     settings,
 )
-from .printing import print_failures, print_json, print_paths, table_console
-from .progress import progress
+from .printing import print_failures, print_json, print_paths, progress, table_console
 
 if TYPE_CHECKING:
     from ..evaluation.batch import Case, Entry, Failure, Job

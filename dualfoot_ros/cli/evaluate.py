@@ -10,16 +10,17 @@ from typing import TYPE_CHECKING, Any
 
 from .arguments import (
     add_align_argument,
-    add_bag_argument,
     add_calibration_argument,
     add_config_arguments,
     add_json_argument,
     add_method_argument,
     add_no_plots_argument,
     add_paper_noise_argument,
+    add_recording_argument,
     add_report_arguments,
     add_usable_arguments,
     load_bag,
+    recording_name,
     tracker_config,
 )
 from .export_options import ExportOptions, add_export_arguments, write_exports
@@ -55,7 +56,7 @@ examples:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    add_bag_argument(parser)
+    add_recording_argument(parser)
     add_method_argument(parser)
     add_config_arguments(parser)
     add_paper_noise_argument(parser)
@@ -132,7 +133,7 @@ def run(args: argparse.Namespace) -> int:
     result = evaluation.run(recording, config, options)
     result = replace(result, notes=(*notes, *result.notes))
     metrics = {
-        "bag": args.bag,
+        "bag": recording_name(args),
         **result.to_dict(),
         "parameters": config.to_mapping(),
         "calibration": {foot: list(c.triads()) for foot, c in calibration.items()},
@@ -199,7 +200,7 @@ def _draw(
     from ..evaluation.reports.html import write_walk_page
     from ..evaluation.reports.plots import draw_all
 
-    runs, title = {result.trajectory.method: result}, Path(args.bag).name
+    runs, title = {result.trajectory.method: result}, Path(recording_name(args)).name
     page = write_walk_page(folder, runs, title, parameters, floor_plan)
     return [*draw_all(runs, folder, title), page]
 
@@ -213,7 +214,7 @@ def _print(
         print_json(metrics)
         return
     console = table_console()
-    console.print(walk_table(result, f"{args.bag}, method {result.trajectory.method}"))
+    console.print(walk_table(result, f"{recording_name(args)}, method {result.trajectory.method}"))
     for note in result.notes:
         console.print(note)
     print_paths(paths)

@@ -6,21 +6,28 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from ..core import (
-    FEET,
-    FORCE_UNITS,
-    FORWARD_LEFT_UP,
-    RATE_UNITS,
-    Increments,
-    PressureSeries,
-    RecordingError,
-)
+from ..core import FEET, Increments, PressureSeries, RecordingError
 from ..core.aids import WORN
 from ..inspection import findings_of
-from ..recording import METADATA, Recording, check_target
-from ..recording.importers import FORMATS, ImportOptions, import_recording, read_pressure
+from ..recording import METADATA, Recording, check_file, check_target, write_text
+from ..recording.importers import (
+    FORMATS,
+    STAMPS,
+    ImportOptions,
+    import_recording,
+    read_pressure,
+)
 from .arguments import add_bag_output_argument, add_storage_arguments, save_bag
 from .printing import print_warning
+from .table_options import (
+    add_axes_argument,
+    add_table_arguments,
+    add_unit_arguments,
+    assumption_lines,
+    doubts,
+    given_layout,
+    known_layout,
+)
 
 HELP = "turn sensor exports and data sets into a bag"
 EXAMPLES = """\
@@ -30,6 +37,13 @@ examples:
   dualfoot import --left L.csv --right R.csv -o walk
   dualfoot import --left L.csv --right R.csv --axes=+y-x+z --right-offset 162.49 -o walk
   dualfoot import --left L.csv --right R.csv --pressure both=baro.csv -o walk
+  dualfoot import --left L.ximu3 --right R.ximu3 -o walk
+  dualfoot import --left L.bin --right R.bin --capture xbus -o walk
+  dualfoot import walk.bag --stamps log -o walk
+  dualfoot import --left L.csv --right R.csv --columns time=t,ax=fx,ay=fy,az=fz --rate-unit deg/s \
+      --save-layout mine.yaml -o walk
+  dualfoot import --left L2.csv --right R2.csv --layout mine.yaml -o walk2
+  dualfoot import both.csv --left-device D4:22 --right-device D4:23 -o walk
   dualfoot import drive.mcap --left-topic /imu_l --right-topic /imu_r --rate-unit deg/s -o walk
 
 Axes and units of the bag: forward-left-up, m/s^2, rad/s, tesla. Stamps are those of the devices.
@@ -50,15 +64,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--list", action="store_true", help="list the formats and exit")
     for foot in FEET:
         parser.add_argument(
-            f"--{foot}", type=Path, metavar="FILE", help=f"file of the {foot} foot's sensor"
+            f"--{foot}",
+            type=Path,
+            metavar="FILE",
+            help=f"file or folder of the {foot} foot's sensor",
         )
-    parser.add_argument(
-        "--axes",
-        default=FORWARD_LEFT_UP,
-        metavar="AXES",
-        help="device axes that point forward, left and up, written --axes=+x+y+z "
-        "(default: %(default)s; not for dual-feet)",
-    )
+    add_axes_argument(parser)
     parser.add_argument(
         "--right-offset",
         type=float,
@@ -77,7 +88,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=float,
         default=0.0,
         metavar="T",
-        help="tesla per unit of the magnetometer; 0 leaves it out (default; xsens-dot only)",
+        help="tesla per unit of a table's magnetometer, where the table does not tell it",
     )
     parser.add_argument(
         "--pressure",
@@ -88,21 +99,48 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "body): columns stamp_ns, time_us, time_ms or time_s, and pressure_Pa or pressure_hPa; "
         "may be repeated",
     )
+    add_unit_arguments(parser)
+    add_table_arguments(parser)
     _add_bag_arguments(parser)
+    _add_capture_arguments(parser)
     add_storage_arguments(parser)
 
 
 def _add_bag_arguments(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("bags of other programs (format rosbag)")
+    group = parser.add_argument_group("bags (format rosbag)")
     for foot in FEET:
         group.add_argument(
-            f"--{foot}-topic", metavar="TOPIC", help=f"sensor_msgs/Imu topic of the {foot} foot"
+            f"--{foot}-topic",
+            metavar="TOPIC",
+            help=f"sensor_msgs/Imu topic of the {foot} foot, or two topics ACCELEROMETER,GYRO "
+            f"(default: that of this package, else the one whose name says {foot})",
         )
     group.add_argument(
-        "--force-unit", default="m/s^2", choices=FORCE_UNITS, help="unit of the specific force"
+        "--stamps",
+        default="header",
+        choices=STAMPS,
+        help="header: as they are (default); log: the log times, evened out, for headers of "
+        "zero; index: those of the headers, evened out by the number of the sample, for times of "
+        "arrival and bursts",
+    )
+
+
+def _add_capture_arguments(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("bytes captured from devices (format capture)")
+    group.add_argument(
+        "--capture",
+        default="",
+        metavar="FORMAT",
+        help="format of the files of --left and --right, as a live source has it, with options of "
+        "the decoder behind a '?': ximu3, xbus, witmotion?force_range=4 (default: by the ending "
+        ".ximu3)",
     )
     group.add_argument(
-        "--rate-unit", default="rad/s", choices=RATE_UNITS, help="unit of the angular rate"
+        "--capture-rate",
+        type=float,
+        default=0.0,
+        metavar="HZ",
+        help="samples a second of a device that sends no time",
     )
 
 
@@ -114,12 +152,25 @@ def run(args: argparse.Namespace) -> int:
     if args.output is None:
         raise RecordingError("no output given; allowed is -o BAG, the folder to write")
     check_target(args.output, overwrite=args.overwrite, marker=METADATA)
+    if args.save_layout is not None:
+        check_file(args.save_layout, overwrite=args.overwrite)
     recording = import_recording(_options(args), args.format)
     columns = {**recording.pressure, **dict(_pressure(text) for text in args.pressure)}
     recording = replace(recording, pressure=columns)
+    for line in assumption_lines(recording):
+        print(line)
     save_bag(recording, args)
+    _save_layout(recording, args.save_layout)
     _report(args.output, recording)
     return 0
+
+
+def _save_layout(recording: Recording, path: Path | None) -> None:
+    if path is None:
+        return
+    if "layout" not in recording.notes:
+        raise RecordingError("--save-layout is for tables; this source has no columns")
+    write_text(path, recording.notes["layout"])
 
 
 def _pressure(text: str) -> tuple[str, PressureSeries]:
@@ -150,6 +201,13 @@ def _options(args: argparse.Namespace) -> ImportOptions:
         right_topic=args.right_topic,
         force_unit=args.force_unit,
         rate_unit=args.rate_unit,
+        stamps=args.stamps,
+        capture=args.capture,
+        capture_rate=args.capture_rate,
+        layout=given_layout(args),
+        known_layout=known_layout(args),
+        left_device=args.left_device,
+        right_device=args.right_device,
     )
 
 
@@ -161,6 +219,11 @@ def _report(output: Path, recording: Recording) -> None:
     reference = recording.reference
     if reference is not None:
         print(f"reference: {reference.summary()}")
+    for key in ("topics", "stamps", "losses"):
+        if key in recording.notes:
+            print(f"{key}: {recording.notes[key]}")
     print(f"wrote {output}")
+    for sentence in doubts(recording):
+        print_warning("import", sentence)
     for finding in findings_of(recording):
         print_warning("import", finding.sentence)

@@ -7,7 +7,14 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from ..core import DualFootError
-from .arguments import add_bag_argument, add_json_argument, add_topic_arguments, load_bag
+from .arguments import (
+    add_json_argument,
+    add_recording_argument,
+    add_topic_arguments,
+    is_bag,
+    load_bag,
+    recording_name,
+)
 from .printing import print_error, print_json
 
 if TYPE_CHECKING:
@@ -27,7 +34,7 @@ on standard error.
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    add_bag_argument(parser)
+    add_recording_argument(parser)
     add_json_argument(parser)
     parser.add_argument("--no-stances", action="store_true", help="do not look for stances")
     add_topic_arguments(parser)
@@ -39,9 +46,9 @@ def run(args: argparse.Namespace) -> int:
 
     contents = _inspect(args)
     if args.json:
-        print_json({"bag": args.bag, **_facts(contents)})
+        print_json({"bag": recording_name(args), **_facts(contents)})
     else:
-        for line in contents_lines(args.bag, contents):
+        for line in contents_lines(recording_name(args), contents):
             print(line)
     for finding in contents.findings:
         if finding.is_error:
@@ -57,7 +64,11 @@ def _inspect(args: argparse.Namespace) -> Contents:
     recording = load_bag(args.bag, args)
     qualities = qualities_of(recording)
     contents = Contents(
-        recording, list_topics(args.bag), qualities, list(findings_of(recording, qualities)), {}
+        recording,
+        list_topics(args.bag) if is_bag(args) else {},
+        qualities,
+        list(findings_of(recording, qualities)),
+        {},
     )
     if contents.usable and not args.no_stances:
         _inspect_walk(contents)

@@ -17,6 +17,7 @@ from .. import __version__
 from .interrupt import EXIT_INTERRUPTED, Interruptible
 
 VERBS = {
+    "probe": "probe",
     "import": "import_",
     "simulate": "simulate",
     "info": "info",

@@ -1,9 +1,10 @@
-"""Output of the verbs: JSON and tables on standard output, errors and warnings on the other."""
+"""Output of the verbs: JSON and tables on standard output, all else on standard error."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -50,7 +51,30 @@ def print_warning(verb: str, sentence: str) -> None:
     print(f"dualfoot {verb}: warning: {sentence}", file=sys.stderr)
 
 
+def print_note(sentence: str) -> None:
+    """Print what a verb takes for granted."""
+    print(f"note: {sentence}", file=sys.stderr)
+
+
 def print_failures(verb: str, failures: Mapping[str, Failure]) -> None:
     """Name every run that failed, and why."""
     for name, failure in failures.items():
         print_error(verb, f"{name}: {failure.sentence}")
+
+
+@contextmanager
+def progress(label: str) -> Iterator[Callable[[float], None]]:
+    """Show a bar while the block runs; it is given a function that takes the share done, 0-1.
+
+    Nothing is shown when standard error is no terminal.
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
+    with Progress(
+        *columns, console=console, transient=True, disable=not console.is_terminal
+    ) as bar:
+        task = bar.add_task(label, total=1.0)
+        yield lambda share: bar.update(task, completed=share)

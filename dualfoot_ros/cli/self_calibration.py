@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..inspection import require_usable
-from .progress import progress
+from .arguments import recording_name
+from .printing import progress
 
 if TYPE_CHECKING:
     from ..calibration import SensorCalibration
@@ -36,7 +37,7 @@ def self_calibration(
     require_usable(recording, allow_not_finite=args.allow_nan)
     with progress("calibrating") as update:
         result = calibrate_walks(
-            [(Path(args.bag).name, recording)], config, given, progress=update
+            [(Path(recording_name(args)).name, recording)], config, given, progress=update
         )
     known = ", ".join(
         f"{name} to {100 * weakest(foot.fit).std:.2f} % or better"

@@ -7,12 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from .arguments import (
-    add_bag_argument,
     add_bag_output_argument,
     add_json_argument,
+    add_recording_argument,
     add_storage_arguments,
     add_topic_arguments,
+    is_bag,
     load_bag,
+    recording_name,
     save_bag,
 )
 from .printing import print_json, table_console
@@ -43,7 +45,7 @@ host's.  Ground truth in the bag keeps its stamps.
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of the verb."""
-    add_bag_argument(parser)
+    add_recording_argument(parser)
     add_bag_output_argument(parser)
     parser.add_argument(
         "--method",
@@ -77,13 +79,13 @@ def _synchronise(recording: Recording, args: argparse.Namespace) -> Synchronised
     left, right = recording.left, recording.right
     if left is None or right is None:
         foot = "left" if left is None else "right"
-        topic = getattr(args, f"{foot}_topic")
+        topic = recording.topics.of(foot).samples
         raise TimingError(
             f"the bag has no samples of the {foot} foot (topic '{topic}'), and both are needed; "
             f"'dualfoot info' lists its topics, --{foot}-topic names another one"
         )
     arrivals = {}
-    if args.method in ("auto", "arrival"):
+    if args.method in ("auto", "arrival") and is_bag(args):
         arrivals = read_arrivals(args.bag, recording.topics)
     return synchronise(left, right, arrivals, args.method)
 
@@ -118,7 +120,7 @@ def _print(result: Synchronised, args: argparse.Namespace) -> None:
 
 def _document(result: Synchronised, args: argparse.Namespace) -> dict[str, Any]:
     return {
-        "bag": args.bag,
+        "bag": recording_name(args),
         "method": result.method,
         "offset_s": result.offset_s,
         "std_s": result.std_s,

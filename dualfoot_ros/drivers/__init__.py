@@ -3,10 +3,14 @@
 from ..core import SourceError
 from .checks import CheckConfig, SensorCheck, SensorFault, SensorFinding
 from .conditioning import Conditioner, ConditioningConfig
+from .probing.listening import BAUDS, Chunk, Heard, listen
+from .probing.recognition import Recognition, devices_on_bus, recognise
+from .probing.scan import Found, announced_devices, bluetooth_devices, serial_ports
 from .protocols.decoder import COUNTERS, Decoder
 from .protocols.registry import FORMATS, make_decoder
 from .reader import BackoffConfig, Reader, State
 from .sample import Sample
+from .sample_series import SampleSeries, series_of
 from .source import Source, make_transport
 from .transports.transport import Transport
 from .uri import SCHEMES, SourceUri, parse_uri
@@ -16,18 +20,24 @@ Conditioning = ConditioningConfig
 """Short names of the two, which programs of users have."""
 
 __all__ = [
+    "BAUDS",
     "COUNTERS",
     "FORMATS",
     "SCHEMES",
     "BackoffConfig",
     "CheckConfig",
     "Checks",
+    "Chunk",
     "Conditioner",
     "Conditioning",
     "ConditioningConfig",
     "Decoder",
+    "Found",
+    "Heard",
     "Reader",
+    "Recognition",
     "Sample",
+    "SampleSeries",
     "SensorCheck",
     "SensorFault",
     "SensorFinding",
@@ -36,7 +46,14 @@ __all__ = [
     "SourceUri",
     "State",
     "Transport",
+    "announced_devices",
+    "bluetooth_devices",
+    "devices_on_bus",
+    "listen",
     "make_decoder",
     "make_transport",
     "parse_uri",
+    "recognise",
+    "serial_ports",
+    "series_of",
 ]

@@ -11,7 +11,6 @@ from typing import Self
 from ..core import Refusal
 from .checks import CheckConfig, SensorCheck
 from .conditioning import Conditioner, ConditioningConfig
-from .protocols.dot import DotConfig
 from .protocols.registry import make_decoder
 from .reader import Reader, State
 from .sample import Sample
@@ -26,6 +25,7 @@ from .transports.transport import Transport
 from .transports.udp import UdpConfig, UdpTransport
 from .uri import SourceUri, parse_uri
 
+UNREAD_BYTES = 8192
 LEAVES_A_HOLE = (Refusal.LOST, Refusal.NOT_FINITE, Refusal.BAD_CHECKSUM, Refusal.MALFORMED)
 
 
@@ -35,7 +35,7 @@ class Source:
     ``with Source(uri, on_samples):`` starts it and stops it.  ``on_state`` is called when the
     link comes and goes, with a reason in words.  ``before_first`` is called before the first
     samples are handed on, with an event that is set when the source is stopped: a file may wait
-    there for its listeners.
+    there for its listeners.  ``unread`` holds the first bytes until one brought a sample.
     """
 
     def __init__(
@@ -65,6 +65,7 @@ class Source:
         self.check = SensorCheck(checks)
         self.senders = Senders()
         self.reader = Reader(self.transport, self._take, self._change, parsed.backoff, clock)
+        self.unread: list[bytes] = []
         self._conditioner = Conditioner(conditioning)
         self._on_samples = on_samples
         self._on_state = on_state or (lambda state, reason: None)
@@ -109,6 +110,7 @@ class Source:
 
     def _take(self, data: bytes, arrival_ns: int) -> None:
         missing = self._count_missing()
+        self._keep(data)
         decoded = self.decoder.feed(data, arrival_ns)
         whole = self._count_missing() == missing
         if decoded and self.transport.sender:
@@ -118,6 +120,13 @@ class Source:
             self.check.interrupt()
         if samples:
             self._deliver(samples)
+
+    def _keep(self, data: bytes) -> None:
+        """Keep bytes as long as they bring no sample, to recognise what they are."""
+        if self.decoder.counters["samples"]:
+            self.unread.clear()
+        elif sum(map(len, self.unread)) < UNREAD_BYTES:
+            self.unread.append(data)
 
     def _count_missing(self) -> int:
         return sum(self.decoder.counters[reason] for reason in LEAVES_A_HOLE)
@@ -156,8 +165,7 @@ def make_transport(uri: SourceUri) -> Transport:
         case TcpConfig():
             return TcpTransport(address.parse(uri.location), uri.transport)
         case BleConfig():
-            dot = uri.decoder if isinstance(uri.decoder, DotConfig) else None
-            return BleTransport(uri.location, uri.transport, dot)
+            return BleTransport(uri.location, uri.transport, uri.decoder)
         case FileConfig():
             return FileTransport(uri.location, uri.transport)
     raise AssertionError(uri)

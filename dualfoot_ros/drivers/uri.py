@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import PurePath
 from typing import NamedTuple
 from urllib.parse import parse_qsl, unquote, urlsplit
 
@@ -31,7 +32,9 @@ SCHEMES: dict[str, Scheme] = {
     "ble": Scheme(BleConfig, "ble://D4:22:CD:00:12:34?payload=rate"),
     "file": Scheme(FileConfig, "file://walk.csv"),
 }
-DEFAULT_FORMATS = {"ble": "dot", "file": "dot_csv"}
+BLE_FORMATS = ("dot", "witmotion")
+DEFAULT_FORMATS = {"ble": "dot"}
+SUFFIX_FORMATS = {".csv": "dot_csv", ".ximu3": "ximu3"}  # of files
 
 
 @dataclass(frozen=True)
@@ -101,8 +104,9 @@ def _parse_options(uri: str, scheme: str, location: str, query: dict[str, str]) 
 
 
 def _choose_format(uri: str, scheme: str, location: str) -> str:
-    plain_file = scheme == "file" and not location.lower().endswith(".csv")
-    if scheme not in DEFAULT_FORMATS or plain_file:
+    if scheme == "file" and (suffix := PurePath(location).suffix.lower()) in SUFFIX_FORMATS:
+        return SUFFIX_FORMATS[suffix]
+    if scheme not in DEFAULT_FORMATS:
         raise SourceError(
             f"source '{uri}' does not say what the device sends; add format= with one of "
             f"{', '.join(FORMATS)}"
@@ -111,11 +115,13 @@ def _choose_format(uri: str, scheme: str, location: str) -> str:
 
 
 def _check_fit(uri: str, scheme: str, chosen: str) -> None:
-    if (scheme == "ble") != (chosen == "dot"):
+    if scheme == "ble" and chosen not in BLE_FORMATS:
         raise SourceError(
-            f"source '{uri}' has the format '{chosen}'; 'dot' goes with ble:// and nothing else "
-            "does"
+            f"source '{uri}' has the format '{chosen}'; allowed over ble:// is one of "
+            f"{', '.join(BLE_FORMATS)}"
         )
+    if scheme != "ble" and chosen == "dot":
+        raise SourceError(f"source '{uri}' has the format 'dot', which goes with ble:// only")
 
 
 def from_text(group: type[Parameters], query: dict[str, str]) -> Parameters:

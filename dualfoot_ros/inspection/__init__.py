@@ -1,5 +1,6 @@
 """What a recording or a live stream is worth: facts in figures, and findings."""
 
+from .arrival_facts import ArrivalFacts, advice_on, arrival_facts, describe_arrival
 from .field_facts import FieldFacts, field_facts, recorded_fields
 from .findings import (
     GRAVITY_ERROR,
@@ -30,6 +31,7 @@ __all__ = [
     "GRAVITY_ERROR",
     "STUCK_SHARE",
     "TRIADS",
+    "ArrivalFacts",
     "Channel",
     "FieldFacts",
     "Finding",
@@ -47,8 +49,11 @@ __all__ = [
     "Stretch",
     "Stuck",
     "WalkFacts",
+    "advice_on",
+    "arrival_facts",
     "check_usable",
     "coupled_findings",
+    "describe_arrival",
     "field_facts",
     "findings_of",
     "gyro_agreement",

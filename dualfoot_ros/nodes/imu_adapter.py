@@ -38,11 +38,13 @@ from .adapter import source_uri as sources
 from .adapter.adapter_report import AdapterReport
 from .adapter.conversion import Conversion
 from .adapter.device import Device
+from .adapter.first_seconds import FirstSeconds
 from .adapter.losses import in_words, select_counts
 from .inputs.calibrations import FOOT_UNKNOWN, find_foot, load_for_sensor
 from .inputs.field_topics import FieldOutput
 from .inputs.increments_topics import IncrementsOutput
 from .inputs.stamper import Stamper
+from .inputs.topic_search import TopicSearch
 from .inputs.unit_check import UnitCheck
 from .playback.player import Player, Sample, in_order, wait_to_begin
 from .ros import qos
@@ -54,6 +56,7 @@ from .ros.watched_input import InputMonitor, WatchedInput
 from .ros.watched_publisher import watched_publisher
 
 MAG, INCREMENTS = "imu/mag", "imu/increments"
+CHOOSE = "the parameter source of this imu_adapter, as in topic:///TOPIC"
 PROGRAM = Program(
     "imu_adapter",
     "Publish one sensor as imu/data_raw, in SI units and with axes forward-left-up; a device or\n"
@@ -98,7 +101,8 @@ class ImuAdapterNode(Node):
         values = declare(self, node_specs("imu_adapter"))
         self._config = group(AdapterConfig, values)
         named = find_foot(self._config.foot, self.get_namespace())
-        self._foot = named or FEET[0]
+        self._named, self._foot = named, named or FEET[0]
+        self.search: TopicSearch | None = None
         self._conversion = Conversion(
             group(MountingConfig, values, "mounting."),
             group(UnitConfig, values, "units."),
@@ -115,19 +119,23 @@ class ImuAdapterNode(Node):
         self.check = SensorCheck(group(CheckConfig, values, "checks."))
         self._unit_check = UnitCheck(self.get_logger().warning)
         self._depth = group(InputConfig, values, "input.").depth
+        self._added_ns: int | None = None  # by the stamping, to the newest sample of a file
+        self._create_outputs(values)
+        source = sources.parse(self._config.source)
+        stamping = sources.choose_stamping(source, self._config, self._foot)
+        self.stamper = Stamper(stamping, group(DeviceClockConfig, values, "clock."))
+        self.first_seconds = FirstSeconds(self, source, self.stamper, lambda: self._input.topic)
+        self._open(source, values)
+        self._reporter = Reporter(self, values, self._make_report().collect)
+
+    def _create_outputs(self, values: dict[str, Any]) -> None:
         self._out = watched_publisher(self, Imu, "imu/data_raw", qos.sensor(self._depth))
         self._frame_id = self._config.frame_id or f"{self._foot}_imu"
         self._own_message = new_imu(self._frame_id)
         self.field: FieldOutput | None = None
-        self._added_ns: int | None = None  # by the stamping, to the newest sample of a file
         self.increments = IncrementsOutput(self, INCREMENTS)
         self._given = group(KindConfig, values, "increments.").given
         self._declare(self._given)
-        source = sources.parse(self._config.source)
-        stamping = sources.choose_stamping(source, self._config, self._foot)
-        self.stamper = Stamper(stamping, group(DeviceClockConfig, values, "clock."))
-        self._open(source, values)
-        self._reporter = Reporter(self, values, self._make_report().collect)
 
     def _declare(self, kind: Increments | None) -> None:
         """Publish what the samples are; the parameter wins over the source."""
@@ -140,11 +148,21 @@ class ImuAdapterNode(Node):
             self._input = WatchedInput(
                 self, Imu, source.target, self._relay, profile, latency_s=config.latency
             )
+            self._search_topic()
             self.monitor = InputMonitor(self, [self._input], config)
         elif source.kind == sources.DEVICE:
             self._read_device(source, config, group(PlayConfig, values, "play."))
         else:
             self._play_file(source, group(PlayConfig, values, "play."))
+
+    def _search_topic(self) -> None:
+        """Look for a topic whose name says the foot, where no source was chosen."""
+        usual = AdapterConfig().source
+        if self._named is not None and self._config.source == usual:
+            topic = usual.removeprefix("topic://")
+            space = self.get_namespace().rpartition("/")[0]
+            feet = {self._named: self._input}
+            self.search = TopicSearch(self, feet, {self._named: topic}, CHOOSE, space)
 
     def _read_device(self, source: sources.Source, config: InputConfig, play: PlayConfig) -> None:
         self._publish_field()
@@ -232,6 +250,7 @@ class ImuAdapterNode(Node):
         self, message: Imu, header_ns: int | None, arrival_ns: int, sensed: FloatArray
     ) -> int | None:
         """Publish a sample; return its stamp, None when it gets none."""
+        self.first_seconds.add(header_ns, arrival_ns, sensed)
         stamp_ns = self._stamp(header_ns, arrival_ns)
         if stamp_ns is None:
             return None
@@ -253,6 +272,7 @@ class ImuAdapterNode(Node):
         if error is not None:
             self.done.set_exception(error)
             return
+        self.first_seconds.report()  # of a file that was shorter than these
         log, text = self.get_logger(), f"played {self.counters['relayed']} samples"
         if losses := in_words(select_counts(self._outcomes())):
             log.warning(f"{text}, the file is over; lost or refused: {losses}")

@@ -13,7 +13,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 
 from ..core import FEET, ImuSeries
-from ..recording import Recording, RecordingError, read_bag
+from ..recording import Recording, RecordingError, find_topics, read_bag
 from ..settings import PlayConfig, ReplayConfig, node_specs
 from .inputs.field_topics import TOPICS as MAGNETIC
 from .inputs.field_topics import FieldOutput
@@ -63,7 +63,7 @@ class ReplayNode(Node):
         super().__init__("replay", **options)
         values = declare(self, node_specs("replay"))
         own = group(ReplayConfig, values)
-        recording = _read(own.bag)
+        recording = _read(own.bag, self.get_logger().info)
         self.series = _select_series(recording, own.bag)
         pressure = dict(recording.pressure)
         fields = {foot: series.field for foot, series in self.series.items()}
@@ -144,10 +144,14 @@ class ReplayNode(Node):
         super().destroy_node()
 
 
-def _read(bag: str) -> Recording:
+def _read(bag: str, say: Callable[[str], object]) -> Recording:
     if not bag:
         raise RecordingError("parameter 'bag' is empty; allowed is the path of a bag to play")
-    return read_bag(Path(bag).expanduser())
+    path = Path(bag).expanduser()
+    choice = find_topics(path)
+    for sentence in choice.sentences:
+        say(sentence)
+    return read_bag(path, topics=choice.topics)
 
 
 def _select_series(recording: Recording, bag: str) -> dict[str, ImuSeries]:

@@ -2,17 +2,21 @@
 
 from ..core import RecordingError
 from .atomic import check_file, check_target, new_directory, new_files, write_text
-from .increments_topic import latched_qos
 from .log_times import read_arrivals
-from .open_bag import METADATA, TopicInfo, is_bag, list_topics
-from .read import read_bag
+from .open_bag import METADATA, is_bag, list_topics
+from .read import read_bag, read_logged
 from .recording import Correction, Recording
 from .reference import Reference
-from .topics import PRESSURE_TOPICS, Topics
+from .storage.bag_source import TopicInfo
+from .storage.bag_writer import new_bag
+from .topic_choice import TopicChoice, choose_topics, find_topics, topics_of_foot
+from .topics import IMU_TYPE, PRESSURE_TOPICS, Topics
 from .track_bag import OdometrySeries, write_track_bag
+from .unit_evidence import UnitEvidence, evidence_of
 from .write import STORAGES, write_bag
 
 __all__ = [
+    "IMU_TYPE",
     "METADATA",
     "PRESSURE_TOPICS",
     "STORAGES",
@@ -21,17 +25,24 @@ __all__ = [
     "Recording",
     "RecordingError",
     "Reference",
+    "TopicChoice",
     "TopicInfo",
     "Topics",
+    "UnitEvidence",
     "check_file",
     "check_target",
+    "choose_topics",
+    "evidence_of",
+    "find_topics",
     "is_bag",
-    "latched_qos",
     "list_topics",
+    "new_bag",
     "new_directory",
     "new_files",
     "read_arrivals",
     "read_bag",
+    "read_logged",
+    "topics_of_foot",
     "write_bag",
     "write_text",
     "write_track_bag",

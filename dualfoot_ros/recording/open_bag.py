@@ -1,19 +1,26 @@
-"""Opening of rosbag2 recordings; any defect becomes a RecordingError with one sentence."""
+"""Opening of recordings; any defect becomes a RecordingError with one sentence.
+
+A bag that was cut off, or whose index or metadata is broken, is read as far as it goes.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
 
 from ..core import RecordingError
-
-if TYPE_CHECKING:
-    from rosbags.interfaces import Connection
-    from rosbags.rosbag2 import Reader
+from .storage.bag_source import BagSource, Chained, Message, TopicInfo
+from .storage.bag_writer import NO_LIBRARY, has_rosbag2_py, has_rosbags
+from .storage.mcap_scan import McapScan
+from .storage.rosbag2_py_source import Rosbag2PySource
+from .storage.rosbags_source import Ros1Source, RosbagsSource
+from .storage.sqlite_scan import SqliteScan
 
 METADATA = "metadata.yaml"
+ROS1 = ".bag"
+SCANS: dict[str, Callable[[Path], BagSource]] = {".mcap": McapScan, ".db3": SqliteScan}
 HEAD = 200  # characters that hold the first key
 
 
@@ -26,82 +33,127 @@ def is_bag(folder: Path) -> bool:
         return False
 
 
-class TopicInfo(NamedTuple):
-    """Type and number of messages of one topic of a bag."""
-
-    msgtype: str
-    messages: int
-
-
 def list_topics(path: str | Path) -> dict[str, TopicInfo]:
     """Return topic -> type and number of messages; raise as :func:`opened`."""
-    with opened(Path(path)) as reader:
-        return {
-            topic: TopicInfo(info.msgtype or "several types", info.msgcount)
-            for topic, info in reader.topics.items()
-        }
+    with opened(Path(path)) as source:
+        return dict(source.topics)
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[Reader]:
-    """Open the bag ``path`` for the block.
+def opened(path: Path) -> Iterator[BagSource]:
+    """Open the bag ``path`` for the block: a folder, or a .mcap, .db3 or (ROS 1) .bag file.
 
     Raises
     ------
     RecordingError
-        When it is not there, is no bag, or is damaged.
+        When it is not there, is no bag, or nothing of it can be read.
     OSError
         When it may not be read.
     """
-    from rosbags.rosbag2 import Reader
-
     _check_is_bag(path)
+    source = _open(path)
     try:
-        reader = Reader(path)
-        reader.open()
-    except PermissionError:
-        raise
-    except Exception as error:  # a broken file leads the reader to raise nearly anything
-        raise _damaged(path, error) from error
-    try:
-        yield reader
+        yield source
     finally:
-        reader.close()
+        source.close()
 
 
-def iterate(
-    path: Path, reader: Reader, connections: list[Connection]
-) -> Iterator[tuple[str, bytes]]:
-    """Yield topic and raw bytes of every message; raise RecordingError where the bag is broken."""
-    if not connections:
-        return
+def iterate(path: Path, source: BagSource, topics: Collection[str]) -> Iterator[Message]:
+    """Yield every message of ``topics``; raise RecordingError where the bag is broken."""
+    count = 0
     try:
-        for connection, _, data in reader.messages(connections):
-            yield connection.topic, data
+        for message in source.messages(topics):
+            yield message
+            count += 1
     except GeneratorExit:
         raise
     except Exception as error:
-        raise _damaged(path, error) from error
+        raise RecordingError(
+            f"bag '{path}' is damaged behind {count} messages ({_reason(error)}); copy it again "
+            "from where it was recorded, or record again"
+        ) from error
+
+
+def _open(path: Path) -> BagSource:
+    """Open a bag with its index; without one, each of its files as far as it goes."""
+    try:
+        return _open_whole(path)
+    except (PermissionError, RecordingError):
+        raise
+    except Exception as error:  # a broken file leads the reader to raise nearly anything
+        files = bag_files(path)
+        if not files:
+            raise _damaged(path, error) from error
+        parts = [_open_file(file) for file in files]
+        return parts[0] if len(parts) == 1 else Chained(parts)
+
+
+def _open_whole(path: Path) -> BagSource:
+    if path.suffix == ROS1 and path.is_file():
+        if not has_rosbags():
+            raise RecordingError(
+                f"'{path}' is a bag of ROS 1, which needs the package rosbags: pip install rosbags"
+            )
+        return Ros1Source(path)
+    if has_rosbags():
+        return RosbagsSource(path)
+    if has_rosbag2_py():
+        return Rosbag2PySource(path)
+    raise RecordingError(NO_LIBRARY)
+
+
+def _open_file(file: Path) -> BagSource:
+    """Open one file of a bag; what its index does not tell, its records do."""
+    try:
+        return _open_whole(file)
+    except (PermissionError, RecordingError):
+        raise
+    except Exception as error:
+        try:
+            scan = SCANS[file.suffix](file)
+        except Exception:  # not even its first records can be read
+            raise _damaged(file, error) from error
+        if not any(topic.messages for topic in scan.topics.values()):
+            raise _damaged(file, error) from error
+        return scan
+
+
+def bag_files(path: Path) -> list[Path]:
+    """Return the .mcap or .db3 files of a bag, in the order of their numbers."""
+    if path.is_file():
+        return [path] if path.suffix in SCANS else []
+    for suffix in SCANS:
+        if found := [file for file in path.glob(f"*{suffix}") if file.is_file()]:
+            return sorted(found, key=_natural_order)
+    return []
+
+
+def _natural_order(file: Path) -> list[tuple[int, str]]:
+    parts = re.split(r"(\d+)", file.name)
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in parts]
 
 
 def _check_is_bag(path: Path) -> None:
     if not path.exists():
         raise RecordingError(f"there is no bag '{path}'; give the folder of a rosbag2 recording")
-    if path.is_dir() and not (path / METADATA).exists():
+    if path.is_dir() and not (path / METADATA).exists() and not bag_files(path):
         raise RecordingError(
-            f"folder '{path}' is no rosbag2 recording (it has no {METADATA}); give the folder "
-            "of one, or run 'ros2 bag reindex' on it when the recording was cut off"
+            f"folder '{path}' is no rosbag2 recording: it has no {METADATA} and no .mcap or .db3 "
+            "file; give the folder of one, or a bag file"
         )
-    if path.is_file() and path.suffix not in (".mcap", ".db3"):
+    if path.is_file() and path.suffix not in (*SCANS, ROS1):
         raise RecordingError(
-            f"'{path}' is no rosbag2 recording; allowed is the folder of a bag, a .mcap or a .db3 "
-            "file; a sensor's export is turned into a bag by 'dualfoot import'"
+            f"'{path}' is no recording of ROS; allowed is the folder of a bag, a .mcap, a .db3 or "
+            "a .bag file; a sensor's export is turned into a bag by 'dualfoot import'"
         )
 
 
 def _damaged(path: Path, error: Exception) -> RecordingError:
-    reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
     return RecordingError(
-        f"bag '{path}' is damaged or cut off and cannot be read ({reason}); try "
-        "'ros2 bag reindex' on it, or record again"
+        f"bag '{path}' is damaged or cut off, and nothing of it can be read ({_reason(error)}); "
+        "record again"
     )
+
+
+def _reason(error: Exception) -> str:
+    return " ".join(str(error).split()).rstrip(".") or type(error).__name__

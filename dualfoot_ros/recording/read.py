@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ..core import (
     FloatArray,
     ImuSeries,
     Increments,
+    IntArray,
     PoseSeries,
     PressureSeries,
     RecordingError,
@@ -22,18 +23,18 @@ from .increments_topic import decode_kind
 from .open_bag import iterate, opened
 from .recording import Recording
 from .reference import FILE_NAME, Reference
+from .split_topics import Samples, join
+from .storage.bag_source import BagSource
 from .topics import (
     FIELD_TYPE,
     IMU_TYPE,
     INCREMENTS_TYPE,
     PRESSURE_TYPE,
     TRUTH_TYPE,
+    VECTOR_TYPE,
+    FootTopics,
     Topics,
 )
-
-if TYPE_CHECKING:
-    from rosbags.interfaces import Connection
-    from rosbags.rosbag2 import Reader
 
 Progress = Callable[[float], None]
 NOTE_PREFIX = "dualfoot."
@@ -42,9 +43,10 @@ NOTE_PREFIX = "dualfoot."
 def read_bag(
     path: str | Path, *, topics: Topics | None = None, progress: Progress | None = None
 ) -> Recording:
-    """Read the samples, the truth and the reference of a rosbag2 recording (MCAP or sqlite3).
+    """Read the samples, the truth and the reference of a recording (MCAP, sqlite3, ROS 1).
 
-    ``path`` is the folder of the bag, or its one .mcap or .db3 file.  A topic that is not there
+    ``path`` is the folder of the bag, or its one .mcap, .db3 or .bag file.  Of a bag that was cut
+    off the part that is there is read, and ``Recording.cut`` says so.  A topic that is not there
     is None in the recording.  A topic named as one of pressure or of what the samples are, but of
     another type, is not read.
     ``progress`` is called with the share read, 0 to 1.
@@ -52,104 +54,135 @@ def read_bag(
     Raises
     ------
     RecordingError
-        When there is no bag, it is damaged, or a topic has another type; each names the topic
-        or file and the remedy.
+        When there is no bag, nothing of it can be read, or a topic has another type; each names
+        the topic or file and the remedy.
+    """
+    return read_logged(path, topics=topics, progress=progress)[0]
+
+
+def read_logged(
+    path: str | Path, *, topics: Topics | None = None, progress: Progress | None = None
+) -> tuple[Recording, dict[str, IntArray]]:
+    """Return the recording of a bag, and the log times (N,) ns of the samples of each foot.
+
+    Raises as :func:`read_bag`.
     """
     path = Path(path)
     topics = topics or Topics()
     raw = _read_raw(path, topics, progress)
     tables = {
-        topic: messages.table(data, msgtype, topic)
-        for topic, (msgtype, data) in raw.topics.items()
-        if msgtype != INCREMENTS_TYPE
+        topic: table.decode(topic)
+        for topic, table in raw.topics.items()
+        if table.msgtype != INCREMENTS_TYPE
     }
     parts: dict[str, Any] = {}
+    logged: dict[str, IntArray] = {}
     for foot in FEET:
         names = topics.of(foot)
-        _, said = raw.topics.get(names.increments, ("", []))
-        kind = decode_kind(said, names.increments)
-        parts[foot] = _imu(tables.get(names.imu), tables.get(names.magnetic_field), kind)
+        samples = _samples(tables, names, _kind(raw, names.increments))
+        parts[foot] = None if samples is None else samples.series
+        logged[foot] = np.empty(0, dtype=np.int64) if samples is None else samples.log_ns
         parts[f"{foot}_truth"] = _truth(tables.get(names.truth))
         parts[f"{foot}_frame"] = _frame(tables.get(names.imu), names.imu_frame)
-    return Recording(
+    recording = Recording(
         **parts,
         pressure=_pressure(tables, topics),
         reference=_reference(path),
         notes=raw.notes,
         topics=topics,
         imu_topics=raw.imu_topics,
+        cut=raw.cut,
     )
+    return recording, logged
+
+
+class _RawTopic(NamedTuple):
+    msgtype: str
+    data: list[bytes]
+    log_ns: list[int]
+
+    def decode(self, topic: str) -> messages.Table:
+        return messages.table(self.data, self.log_ns, self.msgtype, topic)
 
 
 class _Raw(NamedTuple):
-    topics: dict[str, tuple[str, list[bytes]]]
+    topics: dict[str, _RawTopic]
     notes: dict[str, str]
     imu_topics: tuple[str, ...]
+    cut: str
 
 
 def _read_raw(path: Path, topics: Topics, progress: Progress | None) -> _Raw:
     expected = _expected_types(topics)
-    raw: dict[str, tuple[str, list[bytes]]] = {}
-    with opened(path) as reader:
-        wanted = [
-            c for c in reader.connections if c.topic in expected and not _has_other_type(c, topics)
-        ]
-        for connection in wanted:
-            _check_type(connection.topic, connection.msgtype, expected[connection.topic])
-            raw[connection.topic] = (connection.msgtype, [])
-        total = max(1, sum(c.msgcount for c in wanted))
-        for done, (topic, data) in enumerate(iterate(path, reader, wanted)):
-            raw[topic][1].append(data)
+    raw: dict[str, _RawTopic] = {}
+    with opened(path) as source:
+        for topic, (msgtype, _) in source.topics.items():
+            if topic in expected and not _has_other_type(topic, msgtype, topics):
+                _check_type(topic, msgtype, expected[topic])
+                raw[topic] = _RawTopic(msgtype, [], [])
+        total = max(1, sum(source.topics[topic].messages for topic in raw))
+        for done, (topic, log_ns, data) in enumerate(iterate(path, source, raw)):
+            raw[topic].data.append(data)
+            raw[topic].log_ns.append(log_ns)
             if progress is not None and done % 4096 == 0:
                 progress(min(1.0, done / total))
-        others = sorted({c.topic for c in reader.connections if c.msgtype == IMU_TYPE})
-        return _Raw(raw, _notes(reader), tuple(others))
+        others = sorted(t for t, info in source.topics.items() if info.msgtype == IMU_TYPE)
+        return _Raw(raw, _notes(source), tuple(others), source.cut)
 
 
-def _expected_types(topics: Topics) -> dict[str, str]:
-    expected = {}
+def _expected_types(topics: Topics) -> dict[str, tuple[str, ...]]:
+    expected: dict[str, tuple[str, ...]] = {}
     for foot in FEET:
         names = topics.of(foot)
-        expected[names.imu] = IMU_TYPE
-        expected[names.magnetic_field] = FIELD_TYPE
-        expected[names.truth] = TRUTH_TYPE
-        expected[names.increments] = INCREMENTS_TYPE
-    return expected | dict.fromkeys(topics.pressure.values(), PRESSURE_TYPE)
+        expected[names.imu] = (IMU_TYPE,)
+        if names.force:
+            expected |= dict.fromkeys((names.imu, names.force), (IMU_TYPE, VECTOR_TYPE))
+        expected[names.magnetic_field] = (FIELD_TYPE,)
+        expected[names.truth] = (TRUTH_TYPE,)
+        expected[names.increments] = (INCREMENTS_TYPE,)
+    return expected | dict.fromkeys(topics.pressure.values(), (PRESSURE_TYPE,))
 
 
-def _has_other_type(connection: Connection, topics: Topics) -> bool:
+def _has_other_type(topic: str, msgtype: str, topics: Topics) -> bool:
     """Return whether it has a name that anyone may use for something else, and another type."""
     free = dict.fromkeys(topics.pressure.values(), PRESSURE_TYPE)
     free |= {topics.of(foot).increments: INCREMENTS_TYPE for foot in FEET}
-    return free.get(connection.topic, connection.msgtype) != connection.msgtype
+    return free.get(topic, msgtype) != msgtype
 
 
-def _check_type(topic: str, msgtype: str, expected: str) -> None:
-    if msgtype != expected:
-        raise RecordingError(f"topic '{topic}' holds {msgtype}; allowed is {expected}")
+def _check_type(topic: str, msgtype: str, expected: tuple[str, ...]) -> None:
+    if msgtype not in expected:
+        allowed = " or ".join(expected)
+        raise RecordingError(f"topic '{topic}' holds {msgtype}; allowed is {allowed}")
 
 
-def _notes(reader: Reader) -> dict[str, str]:
-    custom = reader.storage.metadata.custom
-    if not isinstance(custom, dict):  # none, or damaged: the samples are what matters
-        return {}
+def _notes(source: BagSource) -> dict[str, str]:
     return {
-        str(key).removeprefix(NOTE_PREFIX): str(value)
-        for key, value in custom.items()
-        if str(key).startswith(NOTE_PREFIX)
+        key.removeprefix(NOTE_PREFIX): value
+        for key, value in source.custom.items()
+        if key.startswith(NOTE_PREFIX)
     }
 
 
-def _imu(
-    imu: messages.Table | None, field: messages.Table | None, kind: Increments | None
-) -> ImuSeries | None:
+def _kind(raw: _Raw, topic: str) -> Increments | None:
+    return decode_kind(raw.topics[topic].data, topic) if topic in raw.topics else None
+
+
+def _samples(
+    tables: dict[str, messages.Table], names: FootTopics, kind: Increments | None
+) -> Samples | None:
+    """Return the samples of a foot, of one topic or of two; None where a topic is missing."""
+    imu, field = tables.get(names.imu), tables.get(names.magnetic_field)
     if imu is None:
         return None
     magnetic = None
+    if names.force:
+        force = tables.get(names.force)
+        return None if force is None else join(imu, force, kind)
     if field is not None and len(field.stamp_ns):
         magnetic = _on_stamps(imu, field)
-    rate, force = imu.values[:, messages.RATE], imu.values[:, messages.FORCE]
-    return ImuSeries(imu.stamp_ns, force, rate, magnetic, kind)
+    rate, force_values = imu.values[:, messages.RATE], imu.values[:, messages.FORCE]
+    return Samples(ImuSeries(imu.stamp_ns, force_values, rate, magnetic, kind), imu.log_ns)
 
 
 def _on_stamps(imu: messages.Table, field: messages.Table) -> FloatArray:

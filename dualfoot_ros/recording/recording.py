@@ -32,6 +32,7 @@ class Recording:
     notes : further facts that travel with the bag (its source, the clock of its stamps ...)
     topics : the names of the topics that were read
     imu_topics : every topic of type sensor_msgs/Imu that the bag has
+    cut : what of the bag could not be read, as a sentence; empty for a whole one
     """
 
     left: ImuSeries | None = None
@@ -45,6 +46,7 @@ class Recording:
     notes: Mapping[str, str] = field(default_factory=dict)
     topics: Topics = field(default_factory=Topics)
     imu_topics: tuple[str, ...] = ()
+    cut: str = ""
 
     def imu(self, foot: str) -> ImuSeries | None:
         """Return the samples of ``foot``, "left" or "right"."""

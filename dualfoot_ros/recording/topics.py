@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 IMU_TYPE = "sensor_msgs/msg/Imu"
+VECTOR_TYPE = "geometry_msgs/msg/Vector3Stamped"
 FIELD_TYPE = "sensor_msgs/msg/MagneticField"
 TRUTH_TYPE = "nav_msgs/msg/Odometry"
 INCREMENTS_TYPE = "std_msgs/msg/String"
@@ -16,13 +17,23 @@ PRESSURE_TOPICS = {"left": "/left/pressure", "right": "/right/pressure", "both":
 
 @dataclass(frozen=True)
 class FootTopics:
-    """Topics and frames of one foot."""
+    """Topics and frames of one foot.
+
+    ``force`` is the topic of the specific force where ``imu`` has the angular rate only; both are
+    then of type Vector3Stamped, or Imu with one half of it filled in.  It is empty otherwise.
+    """
 
     imu: str
     magnetic_field: str
     truth: str
     imu_frame: str
     foot_frame: str
+    force: str = ""
+
+    @property
+    def samples(self) -> str:
+        """The topic or the two topics of the samples, as ``--left-topic`` takes them."""
+        return f"{self.force},{self.imu}" if self.force else self.imu
 
     @property
     def increments(self) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,11 +14,12 @@ from ..core import FEET, FloatArray, ImuSeries, IntArray, PoseSeries, RecordingE
 from . import cdr
 from . import message_tables as messages
 from .atomic import check_target, new_directory
-from .increments_topic import encode_kind, latched_qos
+from .increments_topic import encode_kind
 from .open_bag import METADATA
 from .read import NOTE_PREFIX, Progress
 from .recording import Recording
 from .reference import FILE_NAME
+from .storage.bag_writer import new_bag
 from .topics import (
     FIELD_TYPE,
     IMU_TYPE,
@@ -32,11 +34,36 @@ BODY_FRAME = "base_link"
 LAST_STAMP = 2**31 * 1_000_000_000  # builtin_interfaces/Time has 32-bit seconds
 
 
+BLOCK = 1 << 13  # messages that are encoded at once; all of an hour would be half a gigabyte
+Values = Callable[[slice], FloatArray]
+
+
+class _Rows:
+    """The messages of a topic as CDR bytes, encoded in blocks as they are asked for."""
+
+    def __init__(self, stamp_ns: IntArray, values: Values, texts: tuple[str, ...]) -> None:
+        """Take the stamps (N,), the values of a slice of messages, and the texts of all."""
+        self._stamps, self._values, self._texts = stamp_ns, values, texts
+        self._start = -BLOCK
+        self._block = memoryview(b"")
+        self._length = 0
+
+    def __getitem__(self, place: int) -> memoryview:
+        """Return the bytes of message ``place``."""
+        if not self._start <= place < self._start + BLOCK:
+            self._start = place - place % BLOCK
+            part = slice(self._start, self._start + BLOCK)
+            rows = cdr.encode(self._stamps[part], self._values(part), self._texts)
+            self._block, self._length = memoryview(rows.tobytes()), rows.shape[1]
+        at = (place - self._start) * self._length
+        return self._block[at : at + self._length]
+
+
 class _Channel(NamedTuple):
     topic: str
     msgtype: str
     stamp_ns: IntArray
-    rows: NDArray[np.uint8]
+    rows: _Rows | NDArray[np.uint8]
 
 
 def write_bag(
@@ -84,23 +111,24 @@ def _channels(recording: Recording, topics: Topics) -> Iterator[_Channel]:
             kind = encode_kind(imu.increments)
             yield _Channel(names.increments, INCREMENTS_TYPE, imu.stamp_ns[:1], kind)
         if imu is not None:
-            yield _channel(names.imu, IMU_TYPE, imu.stamp_ns, _imu_values(imu), (frame,))
+            values = partial(_imu_values, imu)
+            yield _channel(names.imu, IMU_TYPE, imu.stamp_ns, values, (frame,))
             if imu.magnetic_field is not None:
-                values = np.zeros((len(imu), messages.FIELD_DOUBLES))
-                values[:, :3] = imu.magnetic_field
+                values = partial(_first_columns, imu.magnetic_field, messages.FIELD_DOUBLES)
                 yield _channel(names.magnetic_field, FIELD_TYPE, imu.stamp_ns, values, (frame,))
         if truth is not None and len(truth):
             frames = ("odom", names.foot_frame)
-            yield _channel(names.truth, TRUTH_TYPE, truth.stamp_ns, _truth_values(truth), frames)
+            values = partial(_truth_values, truth)
+            yield _channel(names.truth, TRUTH_TYPE, truth.stamp_ns, values, frames)
     for worn, series in recording.pressure.items():
-        values = np.zeros((len(series), messages.PRESSURE_DOUBLES))  # variance 0: unknown
-        values[:, 0] = series.pressure
+        column = series.pressure[:, None]  # variance 0: unknown
+        values = partial(_first_columns, column, messages.PRESSURE_DOUBLES)
         frame = recording.frame(worn) if worn in FEET else BODY_FRAME
         yield _channel(topics.pressure[worn], PRESSURE_TYPE, series.stamp_ns, values, (frame,))
 
 
 def _channel(
-    topic: str, msgtype: str, stamp_ns: IntArray, values: FloatArray, texts: tuple[str, ...]
+    topic: str, msgtype: str, stamp_ns: IntArray, values: Values, texts: tuple[str, ...]
 ) -> _Channel:
     bad = np.flatnonzero((stamp_ns < 0) | (stamp_ns >= LAST_STAMP))
     if len(bad):
@@ -108,27 +136,37 @@ def _channel(
             f"stamp {bad[0]} for topic '{topic}' is {stamp_ns[bad[0]]} ns; allowed in a ROS "
             f"message is 0 to {LAST_STAMP - 1} ns, so shift the clock first"
         )
-    return _Channel(topic, msgtype, stamp_ns, cdr.encode(stamp_ns, values, texts))
+    return _Channel(topic, msgtype, stamp_ns, _Rows(stamp_ns, values, texts))
 
 
-def _imu_values(imu: ImuSeries) -> FloatArray:
-    values = np.zeros((len(imu), messages.IMU_DOUBLES))
-    values[:, 3] = 1.0
-    values[:, 4] = -1.0  # REP 145: no orientation
-    values[:, messages.RATE] = imu.angular_rate
-    values[:, messages.FORCE] = imu.specific_force
+def _first_columns(columns: FloatArray, doubles: int, part: slice) -> FloatArray:
+    """Return the values of messages that begin with ``columns`` (N, K), zeros after them."""
+    given = columns[part]
+    values = np.zeros((len(given), doubles))
+    values[:, : given.shape[1]] = given
     return values
 
 
-def _truth_values(truth: PoseSeries) -> FloatArray:
+def _imu_values(imu: ImuSeries, part: slice) -> FloatArray:
+    forces, rates = imu.specific_force[part], imu.angular_rate[part]
+    values = np.zeros((len(forces), messages.IMU_DOUBLES))
+    values[:, 3] = 1.0
+    values[:, 4] = -1.0  # REP 145: no orientation
+    values[:, messages.RATE] = rates
+    values[:, messages.FORCE] = forces
+    return values
+
+
+def _truth_values(truth: PoseSeries, part: slice) -> FloatArray:
     from scipy.spatial.transform import Rotation
 
-    values = np.zeros((len(truth), messages.TRUTH_DOUBLES))
-    values[:, :3] = truth.position
-    values[:, 3:7] = truth.quaternion
+    position, quaternion = truth.position[part], truth.quaternion[part]
+    values = np.zeros((len(position), messages.TRUTH_DOUBLES))
+    values[:, :3] = position
+    values[:, 3:7] = quaternion
     if truth.velocity is not None:
-        rotation = Rotation.from_quat(truth.quaternion)
-        values[:, 43:46] = rotation.apply(truth.velocity, inverse=True)
+        rotation = Rotation.from_quat(quaternion)
+        values[:, 43:46] = rotation.apply(truth.velocity[part], inverse=True)
     return values
 
 
@@ -139,28 +177,15 @@ def _write(
     storage: str,
     progress: Progress | None,
 ) -> None:
-    from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
-    from rosbags.typesys import Stores, get_typestore
-
-    store = get_typestore(Stores.ROS2_JAZZY)
-    writer = Writer(folder, version=9, storage_plugin=StoragePlugin[storage.upper()])
-    if storage == "mcap":  # zstd chunks, which every MCAP reader knows
-        writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
-    for key, value in recording.notes.items():
-        writer.set_custom_data(NOTE_PREFIX + key, str(value))
-    with writer:
-        connections = [
-            writer.add_connection(
-                c.topic,
-                c.msgtype,
-                typestore=store,
-                offered_qos_profiles=[latched_qos()] if c.msgtype == INCREMENTS_TYPE else [],
-            )
+    custom = {NOTE_PREFIX + key: str(value) for key, value in recording.notes.items()}
+    with new_bag(folder, storage, custom) as writer:
+        keys = [
+            writer.add_topic(c.topic, c.msgtype, latched_depth=int(c.msgtype == INCREMENTS_TYPE))
             for c in channels
         ]
         logged, which, row = _in_order(channels)
         for done, (stamp, channel, i) in enumerate(zip(logged, which, row, strict=True)):
-            writer.write(connections[channel], stamp, channels[channel].rows[i].tobytes())
+            writer.write(keys[channel], stamp, channels[channel].rows[i].tobytes())
             if progress is not None and done % 4096 == 0:
                 progress(done / len(logged))
 

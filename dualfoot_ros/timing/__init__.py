@@ -6,6 +6,7 @@ from .clock.counter import CounterConfig, Unwrapper
 from .clock.device_clock import DeviceClock
 from .clock.stamps import POLICIES, StampConfig, Stamps
 from .clock.state import ClockState
+from .offset.even_stamps import EvenStamps, even_stamps
 from .offset.motion_offset import offset_by_motion
 from .offset.result import Offset
 from .offset.synchronise import Synchronised, synchronise
@@ -28,6 +29,7 @@ __all__ = [
     "CounterConfig",
     "DeviceClock",
     "DeviceClockConfig",
+    "EvenStamps",
     "Offset",
     "StampConfig",
     "Stamping",
@@ -38,6 +40,7 @@ __all__ = [
     "align",
     "align_with_report",
     "clean",
+    "even_stamps",
     "offset_by_motion",
     "synchronise",
 ]

@@ -10,7 +10,17 @@ import struct
 G = 9.80665
 DEG = math.pi / 180.0
 PERIOD_US = 5000
-FORMATS = ("mcu", "ximu3", "ximu3_ascii", "witmotion", "xbus", "vectornav", "dot_csv")
+FORMATS = (
+    "mcu",
+    "ximu3",
+    "ximu3_ascii",
+    "witmotion",
+    "xbus",
+    "vectornav",
+    "vectornav_ascii",
+    "dot_csv",
+)
+TIMED = tuple(name for name in FORMATS if name != "vectornav_ascii")  # which sends no time
 CSV_HEADER = (
     b"sep=,\r\nDeviceTag:,A\r\nOutputRate:,200Hz\r\n\r\n"
     b"PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z,Mag_X,Mag_Y,Mag_Z\r\n"
@@ -18,7 +28,7 @@ CSV_HEADER = (
 
 
 def decoder_format(name):
-    return name.removesuffix("_ascii")
+    return "ximu3" if name == "ximu3_ascii" else name
 
 
 def truth(k):
@@ -145,6 +155,26 @@ def vectornav(k):
     return vectornav_message(0b001, [1 << 0 | 1 << 9], content)
 
 
+def vectornav_line(text):
+    """Return an ASCII line with the checksum that is an exclusive or."""
+    check = 0
+    for byte in text.encode():
+        check ^= byte
+    return f"${text}*{check:02X}\r\n".encode()
+
+
+def vectornav_ascii(k):
+    force, rate = truth(k)
+    motion = [*(f"{v:+07.3f}" for v in force), *(f"{v:+010.6f}" for v in rate)]
+    return vectornav_line(",".join(["VNIMU,+0.2500,-0.1250,+0.5000", *motion, "+25.5,+101.325"]))
+
+
+def witmotion_combined(k):
+    rate, force = _device_units(k)
+    words = [round(v / 16 * 32768) for v in force] + [round(v / 2000 * 32768) for v in rate]
+    return b"\x55\x61" + struct.pack("<9h", *words, 100, 200, 300)
+
+
 def dot_csv(k):
     force, rate = truth(k)
     cells = ", ".join(repr(v) for v in (*force, *(v / DEG for v in rate), 0.5, -0.25, 0.75))
@@ -168,5 +198,6 @@ ENCODERS = {
     "witmotion": witmotion,
     "xbus": xbus,
     "vectornav": vectornav,
+    "vectornav_ascii": vectornav_ascii,
     "dot_csv": dot_csv,
 }

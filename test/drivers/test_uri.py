@@ -60,7 +60,7 @@ def test_the_example_of_every_scheme_is_understood(scheme):
         ("serial:///dev/ttyUSB0?format=mcu&buad=9600", "unknown option 'buad'"),
         ("serial:///dev/ttyUSB0?format=mcu&baud=9600&baud=9600", "baud twice"),
         ("serial:///dev/ttyUSB0?format=dot", "ble://"),
-        ("ble://AA?format=mcu", "'dot' goes with ble://"),
+        ("ble://AA?format=mcu", "allowed over ble:// is one of dot, witmotion"),
         ("udp://?format=mcu", "names nothing"),
         ("udp://[::1?format=mcu", "no URI"),
         ("file://a#b.csv", "%23"),

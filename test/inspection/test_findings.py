@@ -149,3 +149,30 @@ def test_jitter_is_the_spread_of_the_intervals():
     late = np.random.default_rng(0).integers(0, 2_000_000, len(series))
     quality = quality_of(replace(series, stamp_ns=series.stamp_ns + late))
     assert 1e-3 < quality.jitter_s < 2.1e-3
+
+
+def test_lost_samples_are_no_jitter_and_times_of_arrival_are():
+    rng = np.random.default_rng(4)
+    whole = moving(1)
+    lossy = whole[rng.random(len(whole)) > 0.12]
+    late = replace(whole, stamp_ns=whole.stamp_ns + rng.exponential(5e6, len(whole)).astype(int))
+    for series, jitters in ((whole, False), (lossy, False), (late, True)):
+        assert ("jitter" in named(of(series))) is jitters
+
+
+@pytest.mark.parametrize("times", [57.3, 30.0])
+def test_a_gyro_that_does_not_fit_the_accelerometer_is_named(times):
+    feet = {}
+    for foot, seed in (("left", 1), ("right", 2)):
+        good = moving(seed)
+        feet[foot] = replace(good, angular_rate=good.angular_rate / times)
+    found = [f for f in findings_of(Recording(**feet)) if f.kind == "rate_unit"]
+    assert [f.about for f in found] == ["left", "right"]
+    assert all("the gyro reads about 57 times too little" in f.sentence for f in found)
+    assert not any(f.is_error for f in found)
+
+
+def test_a_foot_that_only_stands_may_turn_slowly():
+    still = moving(1, count=600, stand=600)
+    kinds = {f.kind for f in findings_of(Recording(left=still, right=moving(2)))}
+    assert "rate_unit" not in kinds

@@ -45,13 +45,18 @@ def with_field(series, tesla):
     return replace(series, magnetic_field=np.full((len(series), 3), tesla))
 
 
+def jittering(series):
+    """Return stamps as of arrivals, with delays of some milliseconds."""
+    late = np.random.default_rng(5).exponential(8e6, len(series)).astype(np.int64)
+    return replace(series, stamp_ns=series.stamp_ns + late)
+
+
+def in_bursts(series):
+    return replace(series, stamp_ns=series.stamp_ns[np.arange(len(series)) // 4 * 4])
+
+
 def air(series, pascal):
     return {"both": PressureSeries(series.stamp_ns[::-1], np.full(len(series), pascal))}
-
-
-def jittering(series):
-    late = np.random.default_rng(0).integers(0, 6_000_000, len(series))
-    return replace(series, stamp_ns=series.stamp_ns + late)
 
 
 def with_rate_of(series, other):
@@ -90,6 +95,7 @@ RECORDINGS = {
     "jitter": lambda: Recording(jittering(moving(1)), moving(2)),
     "33 Hz": lambda: Recording(moving(1)[::3], moving(2)[::3]),
     "same": lambda: Recording(moving(1), moving(1)),
+    "bursts": lambda: Recording(in_bursts(moving(1)), moving(2)),
     "exchanged": exchanged,
 }
 
@@ -139,7 +145,7 @@ def test_rewording_every_sentence_changes_nothing_that_is_decided(bags, capsys, 
 def test_these_recordings_show_all_but_a_few_kinds(bags, capsys):
     decided, _ = outcomes({name: bag for name, bag in bags.items() if name != "exchanged"}, capsys)
     seen = {kind for _, _, kinds, _, _ in decided.values() for kind, _ in kinds}
-    rare = {"late_standstill", "pressure_clock", "field_stamps", "swapped", *OF_WALKS}
+    rare = {"cut_off", "late_standstill", "pressure_clock", "field_stamps", "swapped", *OF_WALKS}
     assert seen | rare == kinds_made_in("inspection")
     severities = {severity for _, _, kinds, _, _ in decided.values() for _, severity in kinds}
     assert severities == set(Severity)

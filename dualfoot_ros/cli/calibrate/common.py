@@ -12,14 +12,14 @@ from ..arguments import (
     add_json_argument,
     add_no_plots_argument,
     add_topic_arguments,
-    read_topics,
 )
-from ..printing import print_json, print_warning
-from ..progress import progress
+from ..printing import print_json, print_warning, progress
+from ..table_options import add_layout_argument, add_unit_arguments, known_layout
 
 if TYPE_CHECKING:
     from ...calibration import Calibration
     from ...core import ImuSeries
+    from ...recording import Topics
 
 
 def add_sensor_arguments(parser: argparse.ArgumentParser) -> None:
@@ -29,7 +29,7 @@ def add_sensor_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         type=Path,
         metavar="SOURCE",
-        help="Xsens DOT exports (.csv) of one sensor, or bags",
+        help="tables of one sensor (.csv and the like), or bags",
     )
     parser.add_argument(
         "-o",
@@ -49,6 +49,8 @@ def add_sensor_arguments(parser: argparse.ArgumentParser) -> None:
         help="device axes that point forward, left and up, as in 'dualfoot import' "
         "(exports only; default: %(default)s)",
     )
+    add_unit_arguments(parser)
+    add_layout_argument(parser)
     add_output_arguments(parser)
     add_topic_arguments(parser)
 
@@ -62,9 +64,22 @@ def add_output_arguments(parser: argparse.ArgumentParser) -> None:
 def load(args: argparse.Namespace) -> dict[str, list[tuple[str, ImuSeries]]]:
     """Read the sources by sensor."""
     from ...calibration import load_sources
+    from ...recording.importers import ImportOptions
 
+    tables = ImportOptions(
+        force_unit=args.force_unit, rate_unit=args.rate_unit, known_layout=known_layout(args)
+    )
+    topics = _topics(args)
     with progress("reading"):
-        return load_sources(args.source, args.foot, axes=args.axes, topics=read_topics(args))
+        return load_sources(args.source, args.foot, axes=args.axes, topics=topics, tables=tables)
+
+
+def _topics(args: argparse.Namespace) -> Topics | None:
+    """Return the topics that ``args`` names; None to find them in each bag by their names."""
+    from ...recording import choose_topics
+
+    given = {foot: getattr(args, f"{foot}_topic") for foot in FEET}
+    return choose_topics({}, given).topics if any(given.values()) else None
 
 
 def existing(path: Path | None) -> Calibration:

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..arguments import (
-    BAG,
-    add_bag_argument,
     add_config_arguments,
+    add_recording_argument,
     add_usable_arguments,
     load_usable,
+    recording_name,
     tracker_config,
 )
 from . import common
@@ -38,7 +38,7 @@ feet is unobservable, since the place where each track starts is unknown.
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    add_bag_argument(parser, f"{BAG} of a walk")
+    add_recording_argument(parser)
     parser.add_argument(
         "-o",
         "--output",
@@ -66,7 +66,7 @@ def run(args: argparse.Namespace) -> int:
     if fit.swapped:
         raise CalibrationError(_exchanged_message(fit))
     files = [] if args.output is None else _write(args, fit)
-    lines = [*_lines(args.bag, fit), *map(str, files)]
+    lines = [*_lines(recording_name(args), fit), *map(str, files)]
     common.show(args, {**_facts(fit), "files": [str(f) for f in files]}, lines)
     if not fit.seen:
         common.warn(_unobservable_message(fit))
@@ -93,7 +93,7 @@ def _write(args: argparse.Namespace, fit: SpacingFit) -> list[Path]:
     from ...calibration import parameter_text
     from ...recording import write_text
 
-    name = Path(args.bag).name
+    name = Path(recording_name(args)).name
     remarks = [f"The feet in passing, measured on '{name}' ('dualfoot calibrate spacing').", ""]
     remarks += [line.strip() for line in _lines(name, fit)]
     write_text(args.output, parameter_text(fit.parameters(), [r for r in remarks if r]))

@@ -13,7 +13,7 @@ from ..arguments import (
     load_usable,
     tracker_config,
 )
-from ..progress import progress
+from ..printing import progress
 from . import common
 from .walk_lines import result_facts, result_lines
 

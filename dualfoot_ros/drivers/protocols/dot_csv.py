@@ -7,6 +7,7 @@ lines.
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from dataclasses import dataclass
 
@@ -19,6 +20,7 @@ FIRST = "PacketCounter"
 STAMP = "SampleTimeFine"
 FORCE, RATE, FIELD = (tuple(f"{name}_{axis}" for axis in "XYZ") for name in ("Acc", "Gyr", "Mag"))
 MAX_LINE = 1024
+WHOLE = re.compile(r"\.0*$")  # data frames write counters as 7.0
 
 
 @dataclass(frozen=True)
@@ -65,10 +67,10 @@ class DotCsvDecoder:
         self.counters["bytes"] += len(data)
         samples: list[Sample] = []
         for raw in self._framer.push(data):
-            line = raw.decode("ascii", "replace").strip("\ufffd \r")
+            line = raw.decode("ascii", "replace").strip("\ufffd \r").replace('"', "")
             if line.startswith(FIRST):
                 self._begin(line)
-            elif self._columns is None or not line.strip(",; "):
+            elif self._columns is None or not line.strip(",;\t "):
                 self.counters[Refusal.OTHER] += 1
             else:
                 self._take(line.split(self._delimiter), arrival_ns, samples)
@@ -76,7 +78,7 @@ class DotCsvDecoder:
 
     def _begin(self, line: str) -> None:
         """Read the names of the columns; without those that are needed nothing is decoded."""
-        self._delimiter = ";" if ";" in line else ","
+        self._delimiter = next((sign for sign in "\t;" if sign in line), ",")
         names = [name.strip() for name in line.split(self._delimiter)]
         columns = {name: place for place, name in enumerate(names)}
         complete = all(name in columns for name in (STAMP, *FORCE, *RATE))
@@ -112,7 +114,7 @@ class DotCsvDecoder:
 
     def _read_whole(self, cells: list[str], name: str) -> int:
         assert self._columns is not None
-        cell = cells[self._columns[name]].strip()
+        cell = WHOLE.sub("", cells[self._columns[name]].strip())
         if not cell.isascii() or not cell.isdigit() or len(cell) > 10 or int(cell) >> 32:
             raise ValueError(cell)
         return int(cell)

@@ -11,6 +11,7 @@ from .dot import DotConfig, DotDecoder
 from .dot_csv import DotCsvConfig, DotCsvDecoder
 from .mcu import McuConfig, McuDecoder
 from .vectornav import VectorNavConfig, VectorNavDecoder
+from .vectornav_ascii import VectorNavAsciiConfig, VectorNavAsciiDecoder
 from .witmotion import WitMotionConfig, WitMotionDecoder
 from .xbus import XbusConfig, XbusDecoder
 from .ximu3 import XImu3Config, XImu3Decoder
@@ -30,8 +31,11 @@ FORMATS: dict[str, Format] = {
     ),
     "ximu3": Format(XImu3Decoder, XImu3Config, "x-io x-IMU3, ASCII and binary"),
     "witmotion": Format(WitMotionDecoder, WitMotionConfig, "WitMotion serial output"),
-    "xbus": Format(XbusDecoder, XbusConfig, "Xsens MTi, MTData2"),
+    "xbus": Format(XbusDecoder, XbusConfig, "Xsens MTi, MTData2 and MTData"),
     "vectornav": Format(VectorNavDecoder, VectorNavConfig, "VectorNav binary output"),
+    "vectornav_ascii": Format(
+        VectorNavAsciiDecoder, VectorNavAsciiConfig, "VectorNav ASCII output ($VNIMU, $VNYMR ...)"
+    ),
     "dot": Format(DotDecoder, DotConfig, "Xsens (Movella) DOT, live over BLE"),
     "dot_csv": Format(DotCsvDecoder, DotCsvConfig, "csv export of the Xsens DOT app"),
 }

@@ -1,8 +1,11 @@
-"""WitMotion serial output: frames of 11 bytes, ``0x55``, a type, eight bytes, their sum.
+"""WitMotion output: frames of 11 bytes, ``0x55``, a type, eight bytes, their sum.
 
 After the maker's protocol pages (docs.wit-motion.com).  An acceleration frame and the angular
 rate frame behind it are one sample.  The header byte occurs in payloads and the sum is 8 bits,
 so the framer asks a frame that does not follow another for a second one behind it.
+
+Bluetooth models send frames of 20 bytes instead, ``0x55 0x61`` with acceleration, angular rate and
+angles as nine words, and without a sum: what follows such a frame has to begin with the header.
 """
 
 from __future__ import annotations
@@ -20,8 +23,11 @@ from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
 HEADER = 0x55
 LENGTH = 11
 TIME, ACCELERATION, RATE, FIELD = 0x50, 0x51, 0x52, 0x54
+COMBINED, REGISTERS = 0x61, 0x71
+LONG_LENGTH = 20  # of the last two
 FIRST_TYPE, LAST_TYPE = 0x50, 0x5F
 WORDS = struct.Struct("<4h")
+NINE_WORDS = struct.Struct("<9h")
 DATE = struct.Struct("<6BH")
 FULL_SCALE = 32768.0
 TICK_NS = 1_000_000
@@ -56,7 +62,7 @@ class WitMotionDecoder:
         """Start with an empty buffer."""
         config = config or WitMotionConfig()
         self.counters: Counter[str] = Counter()
-        self._framer = HeaderFramer(HEADER, probe, LENGTH, self.counters, after_a_gap)
+        self._framer = HeaderFramer(HEADER, probe, LONG_LENGTH, self.counters, after_a_gap)
         self.max_buffer = self._framer.max_buffer
         self._force_scale = config.force_range * STANDARD_GRAVITY / FULL_SCALE
         self._rate_scale = config.rate_range * DEGREE / FULL_SCALE
@@ -81,7 +87,9 @@ class WitMotionDecoder:
         self.counters["bytes"] += len(data)
         samples: list[Sample] = []
         for frame in self._framer.push(data):
-            if frame:
+            if frame and frame[1] == COMBINED:
+                self._take_combined(frame[2:], arrival_ns, samples)
+            elif frame:
                 self._take(frame[1], frame[2:10], arrival_ns, samples)
             else:  # what follows a gap may belong to another sample
                 self._drop_half()
@@ -103,6 +111,13 @@ class WitMotionDecoder:
             self._field = scaled(WORDS.unpack(content)[:3], self._field_unit)
         else:
             self.counters[Refusal.OTHER] += 1
+
+    def _take_combined(self, content: bytes, arrival_ns: int, samples: list[Sample]) -> None:
+        """Make a sample of a frame that has both halves, and the angles behind them."""
+        self._drop_half()
+        words = NINE_WORDS.unpack(content)
+        self._force = scaled(words[:3], self._force_scale)
+        self._complete(words[3:6], arrival_ns, samples)
 
     def _drop_half(self) -> None:
         self.counters[Refusal.INCOMPLETE] += self._force is not None
@@ -134,12 +149,22 @@ def probe(buffer: bytearray, at: int) -> int:
     head = buffer[at : at + 2]
     if head[:1] not in (b"", bytes([HEADER])):
         return NO_FRAME
+    if len(head) == 2 and head[1] in (COMBINED, REGISTERS):
+        return _probe_long(buffer, at)
     if len(head) == 2 and not FIRST_TYPE <= head[1] <= LAST_TYPE:
         return NO_FRAME
     if at + LENGTH > len(buffer):
         return NEED_MORE
     valid = sum(buffer[at : at + LENGTH - 1]) & 0xFF == buffer[at + LENGTH - 1]
     return LENGTH if valid else BAD_CHECKSUM
+
+
+def _probe_long(buffer: bytearray, at: int) -> int:
+    """Look at a frame without a sum: only the header of the next one can tell."""
+    end = at + LONG_LENGTH
+    if end > len(buffer):
+        return NEED_MORE
+    return NO_FRAME if buffer[end : end + 1] not in (b"", bytes([HEADER])) else LONG_LENGTH
 
 
 def after_a_gap(_frame: bytes, in_step: bool) -> bool:

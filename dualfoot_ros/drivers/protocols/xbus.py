@@ -1,4 +1,4 @@
-"""Xsens MTi: MTData2 messages of the Xbus protocol.
+"""Xsens MTi: MTData2 and MTData messages of the Xbus protocol.
 
 After the maker's MT Low Level Communication Protocol.  A message is preamble ``0xFA``, bus
 identifier, message identifier, length, data, and a byte that makes the sum of all but the
@@ -17,15 +17,18 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ...core import Increments, Refusal, Vector
+from ...core import Increments, Refusal, Vector, parameter
 from ..sample import Sample, scaled
 from .decoder import FieldConfig, PacketCounter, append_if_finite
 from .delta import OutputInterval, per_second, rotation_vector
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
+from .xbus_apart import ApartHalves, Turn
+from .xbus_legacy import read_mtdata
 
 PREAMBLE = 0xFA
-BUS_IDS = (0xFF, 0x01)  # a device on its own; the first one on a bus
-MTDATA2 = 0x36
+ALONE = (0xFF, 0x01)  # identifiers of a device on its own, and of the first one on a bus
+LAST_ON_BUS = 0x20
+MTDATA2, MTDATA = 0x36, 0x32
 EXTENDED = 0xFF
 MAX_FRAME = 1024
 
@@ -54,9 +57,22 @@ Motion = tuple[tuple[float, ...], tuple[float, ...], Increments | None]
 class XbusConfig(FieldConfig):
     """Options of the Xbus decoder."""
 
+    bus_id: int = parameter(
+        0,
+        "device on a bus of several whose messages are used; 0 takes one on its own, or the first",
+        minimum=0,
+        maximum=LAST_ON_BUS,
+    )
+    mtdata_temperature: bool = parameter(
+        False, "messages MTData begin with a temperature (older devices)"
+    )
+
 
 class XbusDecoder:
-    """Decoder of MTData2 messages that hold acceleration and rate of turn."""
+    """Decoder of messages that hold acceleration and rate of turn, together or apart.
+
+    ``devices`` counts the messages with data of each bus identifier.
+    """
 
     message_oriented = False
 
@@ -67,7 +83,12 @@ class XbusDecoder:
         self.max_buffer = self._framer.max_buffer
         self._packets = PacketCounter(self.counters, 16)
         self._interval = OutputInterval(TICK_NS, 32)
-        self._field_unit = (config or XbusConfig()).field_unit
+        self._apart = ApartHalves(self.counters)
+        config = config or XbusConfig()
+        self._field_unit = config.field_unit
+        self._with_temperature = config.mtdata_temperature
+        self._ids = (config.bus_id,) if config.bus_id else ALONE
+        self.devices: Counter[int] = Counter()
         self._temperature: float | None = None
 
     @property
@@ -80,6 +101,7 @@ class XbusDecoder:
         self._framer.reset()
         self._packets.reset()
         self._interval.reset()
+        self._apart.reset()
         self._temperature = None
 
     def feed(self, data: bytes, arrival_ns: int) -> list[Sample]:
@@ -87,7 +109,12 @@ class XbusDecoder:
         self.counters["bytes"] += len(data)
         samples: list[Sample] = []
         for frame in filter(None, self._framer.push(data)):
-            if frame[2] == MTDATA2:
+            self.devices[frame[1]] += frame[2] in (MTDATA2, MTDATA)
+            if frame[1] not in self._ids:
+                self.counters[Refusal.OTHER] += 1
+            elif frame[2] == MTDATA:
+                self._decode_legacy(_cut_content(frame), arrival_ns, samples)
+            elif frame[2] == MTDATA2:
                 self._decode(_cut_content(frame), arrival_ns, samples)
             else:
                 self.counters[Refusal.OTHER] += 1
@@ -99,25 +126,60 @@ class XbusDecoder:
         if counter is not None:
             self._packets.count(counter)
         self._temperature = _take_first(_read_reals(items, TEMPERATURE, 1), self._temperature)
-        ticks = _read_whole(items, SAMPLE_TIME_FINE, 4)
-        if ticks is not None:
+        ticks, field = _read_whole(items, SAMPLE_TIME_FINE, 4), self._field(items)
+        if ticks is not None and DELTA_Q in items:  # messages apart come between
             self._interval.add(ticks)
         motion = _read_increments(items, self._interval.seconds) or _read_motion(items)
         if motion is None:
-            self.counters[Refusal.INCOMPLETE] += 1
+            self._join_half(items, ticks, counter, arrival_ns, samples)
             return
         force, rate, kind = motion
+        turn = Turn(ticks, counter, scaled(rate, 1.0), field, kind)
+        self._append(turn, scaled(force, 1.0), arrival_ns, samples)
+
+    def _join_half(
+        self,
+        items: Items,
+        ticks: int | None,
+        counter: int | None,
+        arrival_ns: int,
+        samples: list[Sample],
+    ) -> None:
+        """Take a message with one half of a sample."""
+        force, (rate, kind) = _read_force(items), _read_rate(items)
+        if ticks is None or (rate is None and force is None):
+            self.counters[Refusal.INCOMPLETE] += 1
+        elif rate is not None:
+            turn = Turn(ticks, counter, scaled(rate, 1.0), self._field(items), kind)
+            self._apart.add_rate(turn)
+        elif force is not None:
+            for turn, between in self._apart.add_force(ticks, scaled(force, 1.0)):
+                self._append(turn, between, arrival_ns, samples)
+
+    def _decode_legacy(self, content: bytes, arrival_ns: int, samples: list[Sample]) -> None:
+        found = read_mtdata(content, self._with_temperature)
+        if found is None:
+            self.counters[Refusal.INCOMPLETE] += 1
+            return
+        if found.counter is not None:
+            self._packets.count(found.counter)
+        self._temperature = found.temperature
+        field = scaled(found.field, self._field_unit) if self._field_unit else None
+        turn = Turn(None, found.counter, found.rate, field)
+        self._append(turn, found.force, arrival_ns, samples)
+
+    def _append(self, turn: Turn, force: Vector, arrival_ns: int, samples: list[Sample]) -> None:
         sample = Sample(
             arrival_ns,
-            scaled(force, 1.0),
-            scaled(rate, 1.0),
-            ticks,
+            force,
+            turn.rate,
+            turn.ticks,
             TICK_NS,
             32,
             self._temperature,
-            self._field(items),
-            counter,
-            kind,
+            turn.field,
+            turn.counter,
+            turn.kind,
         )
         append_if_finite(self.counters, samples, sample)
 
@@ -129,7 +191,7 @@ class XbusDecoder:
 def probe(buffer: bytearray, at: int) -> int:
     """Look at a message that may start at ``at``, as :data:`framing.Probe` says."""
     head = bytes(buffer[at : at + 6])
-    if head[:1] not in (b"", b"\xfa") or (len(head) > 1 and head[1] not in BUS_IDS):
+    if head[:1] not in (b"", b"\xfa") or (len(head) > 1 and not _is_bus_id(head[1])):
         return NO_FRAME
     if len(head) < 4 or (head[3] == EXTENDED and len(head) < 6):
         return NEED_MORE
@@ -146,8 +208,14 @@ def probe(buffer: bytearray, at: int) -> int:
     return length
 
 
-def no_motion(frame: bytes, _in_step: bool) -> bool:
-    """Doubt all messages but those with motion: these are no chance."""
+def _is_bus_id(identifier: int) -> bool:
+    return identifier == ALONE[0] or 1 <= identifier <= LAST_ON_BUS
+
+
+def no_motion(frame: bytes, in_step: bool) -> bool:
+    """Doubt all but items of motion, which are no chance, and MTData in step."""
+    if frame[2] == MTDATA:
+        return not in_step
     if frame[2] != MTDATA2:
         return True
     return not any(
@@ -198,6 +266,20 @@ def _read_motion(items: Items) -> Motion | None:
     if (force, rate) == calibrated:
         return force, rate, Increments.COMPENSATED
     return force, rate, Increments.SAMPLED if (force, rate) == high else None
+
+
+def _read_force(items: Items) -> tuple[float, ...] | None:
+    return _read_reals(items, ACCELERATION, 3) or _read_reals(items, ACCELERATION_HR, 3)
+
+
+def _read_rate(items: Items) -> tuple[tuple[float, ...] | None, Increments | None]:
+    """Return a rate without a force, and what it is beside one interpolated to its stamp.
+
+    That force is no increment any more, so only samples of the signal keep their kind.
+    """
+    high = _read_reals(items, RATE_OF_TURN_HR, 3)
+    rate = _read_reals(items, RATE_OF_TURN, 3) or high
+    return rate, Increments.SAMPLED if rate is not None and rate is high else None
 
 
 def _read_whole(items: Items, key: int, size: int) -> int | None:

@@ -1,7 +1,9 @@
-"""Xsens (Movella) DOT over Bluetooth Low Energy, read by bleak, which is an optional extra.
+"""Sensors over Bluetooth Low Energy, read by bleak, which is an optional extra.
 
-After the Movella DOT BLE Service Specification (XD0506P), section 3: notifications of the
-measurement characteristic, started and stopped by three bytes to the control characteristic.
+Xsens (Movella) DOT, after the Movella DOT BLE Service Specification (XD0506P), section 3:
+notifications of the measurement characteristic, started and stopped by three bytes to the control
+characteristic.  WitMotion, after the maker's protocol pages: notifications of one characteristic,
+which come by themselves.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ import contextlib
 import re
 from dataclasses import dataclass
 from importlib import util
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...core import Parameters, SourceError, parameter
 from ..protocols.dot import PAYLOADS, DotConfig
@@ -21,6 +23,7 @@ UUID = "1517{:04x}-4947-11e9-8646-d663bd873d93"
 CONTROL = 0x2001
 MEASUREMENT, START, STOP = 1, 1, 0
 FAREWELL_S = 2.0
+WITMOTION = "0000ffe4-0000-1000-8000-00805f9a34fb"
 HEX = "[0-9A-Fa-f]"
 ADDRESS = re.compile(rf"({HEX}{{2}}:){{5}}{HEX}{{2}}|{HEX}{{8}}(-{HEX}{{4}}){{3}}-{HEX}{{12}}")
 
@@ -41,13 +44,30 @@ class BleConfig(Parameters):
     )
 
 
+class Profile(NamedTuple):
+    """How a device sends: its characteristic, and the mode that starts it (None: by itself)."""
+
+    characteristic: str
+    mode: int | None = None
+
+
+def profile_of(decoder: Parameters) -> Profile:
+    """Return the profile of the devices that the decoder of these options is for."""
+    if isinstance(decoder, DotConfig):
+        payload = PAYLOADS[decoder.payload]
+        return Profile(UUID.format(payload.characteristic), payload.mode)
+    return Profile(WITMOTION)
+
+
 class BleTransport(Transport):
-    """Notifications of a measuring DOT, one a call."""
+    """Notifications of a measuring device, one a call."""
 
     def __init__(
-        self, address: str, config: BleConfig | None = None, dot: DotConfig | None = None
+        self, address: str, config: BleConfig | None = None, decoder: Parameters | None = None
     ) -> None:
         """Name the device (``D4:22:CD:00:12:34``); nothing is opened yet.
+
+        ``decoder`` has the options of the decoder of its format (default: a DOT).
 
         Raises
         ------
@@ -66,7 +86,7 @@ class BleTransport(Transport):
         self.silence_s = config.silence
         self._address = address
         self._connect_s = config.connect
-        self._payload = PAYLOADS[(dot or DotConfig()).payload]
+        self._profile = profile_of(decoder or DotConfig())
         self._loop: asyncio.AbstractEventLoop | None = None
         self._client: Any = None
 
@@ -107,8 +127,7 @@ class BleTransport(Transport):
 
         self._client = BleakClient(self._address, disconnected_callback=self._gone)
         await asyncio.wait_for(self._client.connect(), self._connect_s)
-        characteristic = UUID.format(self._payload.characteristic)
-        await self._client.start_notify(characteristic, self._notified)
+        await self._client.start_notify(self._profile.characteristic, self._notified)
         await self._command(START)
 
     async def _finish(self) -> None:
@@ -119,7 +138,9 @@ class BleTransport(Transport):
             await self._client.disconnect()
 
     async def _command(self, action: int) -> None:
-        message = bytes([MEASUREMENT, action, self._payload.mode])
+        if self._profile.mode is None:
+            return
+        message = bytes([MEASUREMENT, action, self._profile.mode])
         await self._client.write_gatt_char(UUID.format(CONTROL), message, response=True)
 
     def _notified(self, _sender: object, data: bytearray) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ import numpy as np
 from ...core import EvaluationError, FloatArray, IntArray, swing_passings
 from ...core.compiler import compiled
 from ...inspection import Finding, check_usable
-from ...recording import Correction, Recording, Topics, read_bag
+from ...recording import Correction, Recording, find_topics, read_bag
 from ..evaluate import Evaluation
 from ..frames.gauge import Options, Truth
 from ..metrics.accuracy import Statistics, statistics
@@ -30,7 +30,8 @@ NEAR_S = 0.25
 class Job:
     """A case to run on a bag.
 
-    ``left_topic`` and ``right_topic`` are None for the usual ones; ``calibration`` is by foot.
+    ``left_topic`` and ``right_topic`` are None for the usual ones, or those found by name;
+    ``calibration`` is by foot.
     """
 
     bag: str
@@ -131,12 +132,7 @@ def _read(
     bag: str, names: tuple[str | None, str | None], allow_nan: bool, repeat: int
 ) -> tuple[Recording, tuple[Finding, ...]]:
     """Read and check a bag; a process that runs several methods in a row on it does so once."""
-    usual = Topics()
-    left, right = (
-        replace(foot, imu=name or foot.imu)
-        for foot, name in zip((usual.left, usual.right), names, strict=True)
-    )
-    recording = read_bag(Path(bag), topics=replace(usual, left=left, right=right))
+    recording = read_bag(Path(bag), topics=find_topics(bag, *names).topics)
     findings = check_usable(recording, allow_not_finite=allow_nan)
     return repeated(recording, repeat), findings
 

@@ -25,6 +25,7 @@ class FindingKind(StrEnum):
 
     # samples of a foot
     MISSING = "missing"
+    CUT_OFF = "cut_off"
     NOT_FINITE = "not_finite"
     EMPTY = "empty"
     REFUSED_SAMPLES = "refused_samples"

@@ -23,7 +23,7 @@ def find_missing(recording: Recording) -> Iterator[Finding]:
     absent = [foot for foot in FEET if not recording.imu(foot)]
     if not absent:
         return
-    topics = ", ".join(f"'{recording.topics.of(foot).imu}'" for foot in absent)
+    topics = ", ".join(f"'{recording.topics.of(foot).samples}'" for foot in absent)
     present = [foot for foot in FEET if foot not in absent]
     which = f"the {absent[0]} foot" if present else "either foot"
     usual = all(recording.topics.of(foot).imu == Topics().of(foot).imu for foot in absent)
@@ -36,6 +36,17 @@ def find_missing(recording: Recording) -> Iterator[Finding]:
         _topic_advice(recording),
         absent[0] if present else "",
     )
+
+
+def find_cut(recording: Recording) -> Iterator[Finding]:
+    """Yield a finding when a part of the bag could not be read."""
+    if recording.cut:
+        yield Finding(
+            FindingKind.CUT_OFF,
+            Severity.WARNING,
+            f"the recording is not whole: {recording.cut}",
+            "copy it again from where it was recorded, if it is whole there",
+        )
 
 
 def _topic_advice(recording: Recording) -> str:

@@ -21,6 +21,7 @@ from .gyro_findings import (
     find_rate_scale,
 )
 from .pair_findings import (
+    find_cut,
     find_different_rates,
     find_missing,
     find_no_overlap,
@@ -37,6 +38,7 @@ from .sample_findings import (
 from .stream_findings import (
     find_bad_stamps,
     find_clipping,
+    find_equal_stamps,
     find_gaps,
     find_jitter,
     find_late_standstill,
@@ -62,6 +64,7 @@ OF_UNITS: Sequence[FootFindings] = (
 )
 OF_PAIR: Sequence[PairFindings] = (find_no_overlap, find_one_foot, find_different_rates)
 OF_STREAM: Sequence[FootFindings] = (
+    find_equal_stamps,
     find_stuck_values,
     find_no_standstill,
     find_late_standstill,
@@ -109,6 +112,7 @@ def findings_of(
     """Yield every finding, the gravest first; ``qualities`` spares computing them again."""
     yield from find_missing(recording)
     yield from find_same_samples(recording)
+    yield from find_cut(recording)
     if qualities is None:
         qualities = qualities_of(recording)
     usable = {foot: q for foot, q in qualities.items() if q.usable >= LEAST_SAMPLES}

@@ -34,9 +34,18 @@ def find_too_few(foot: str, quality: Quality) -> Iterator[Finding]:
             f"{foot} foot: {quality.usable} of {quality.samples} samples can be used "
             f"({quality.not_finite} not finite, {quality.duplicate} duplicate and "
             f"{quality.out_of_order} out-of-order stamps)",
-            "check the driver's stamps and values",
+            _few_remedy(quality),
             foot,
         )
+
+
+def _few_remedy(quality: Quality) -> str:
+    if quality.duplicate > quality.samples // 2:
+        return (
+            "the headers have no stamps, so take the times at which the messages were logged, "
+            "with 'dualfoot import BAG --stamps log -o NEW'"
+        )
+    return "check the driver's stamps and values"
 
 
 def find_second_recording(foot: str, quality: Quality) -> Iterator[Finding]:

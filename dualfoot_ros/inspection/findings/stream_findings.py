@@ -16,6 +16,8 @@ LEAST_MISSING = 3
 UNCERTAIN = 0.25  # of the interval; with more jitter nothing tells what is missing
 JITTER_S = 1.5e-3  # 2 ms cost 0.3 m there, 6 ms cost 3.1 m
 LOW_RATE_HZ = 40.0  # the swing of a foot needs more
+EQUAL_SHARE = 0.2  # of the samples; with more, the recording is of no use
+EVEN_THEM = "even the stamps out with 'dualfoot import BAG --stamps index -o NEW'"
 
 
 def find_stuck_values(foot: str, quality: Quality) -> Iterator[Finding]:
@@ -99,8 +101,7 @@ def find_jitter(foot: str, quality: Quality) -> Iterator[Finding]:
             f"{foot} foot: the stamps jitter by {1e3 * quality.jitter_s:.1f} ms where a sensor "
             f"samples every {1e3 / quality.rate_hz:.1f} ms, so they seem to tell when samples "
             "arrived",
-            "stamp them with the time of the device: stamping.left and stamping.right device, or "
-            "the column of the device's time on import",
+            f"{EVEN_THEM}; live stamp them with the time of the device (stamp: device)",
             foot,
         )
 
@@ -126,6 +127,19 @@ def find_bad_stamps(foot: str, quality: Quality) -> Iterator[Finding]:
             f"{foot} foot: {quality.duplicate} duplicate and {quality.out_of_order} out-of-order "
             "stamps are left out",
             about=foot,
+        )
+
+
+def find_equal_stamps(foot: str, quality: Quality) -> Iterator[Finding]:
+    """Yield a finding when so many stamps repeat that most of the samples would be lost."""
+    if quality.duplicate > EQUAL_SHARE * quality.samples:
+        yield Finding(
+            FindingKind.EQUAL_STAMPS,
+            Severity.ERROR,
+            f"{foot} foot: {quality.duplicate} of {quality.samples} samples have the stamp of the "
+            "one before, as of a link that delivers several at once",
+            EVEN_THEM,
+            foot,
         )
 
 

@@ -68,7 +68,7 @@ def _describe_force(reading: str, gravity: float) -> tuple[str, str]:
 
 
 def find_rate_unit(foot: str, quality: Quality) -> Iterator[Finding]:
-    """Yield a finding when the foot turns faster than any foot does in rad/s."""
+    """Yield a finding when the foot turns faster than any foot, or slower than one that walks."""
     if quality.high_rate > FASTEST_FOOT:
         yield Finding(
             FindingKind.RATE_UNIT,

@@ -11,7 +11,7 @@ import numpy as np
 from rclpy.node import Node
 
 from ...core import FloatArray, Increments, Refusal, SourceError, Vector
-from ...drivers import CheckConfig, Sample, Source, State
+from ...drivers import CheckConfig, Sample, Source, State, recognise
 from ...inspection import Finding, FindingKind, Severity
 from ...settings import InputConfig
 from ...timing import CounterConfig, Unwrapper
@@ -19,6 +19,7 @@ from ..ros.status import Status
 from ..ros.watched_input import silence
 from .losses import REFUSED, in_words, increases
 
+PROBE = "'dualfoot probe URI' tries the usual ones"
 Take = Callable[[int | None, int, FloatArray, Vector | None], None]
 Declare = Callable[[Increments | None], None]
 
@@ -65,6 +66,7 @@ class Device:
         self._at_last: dict[str, int] = {}  # the refusals, when the last good sample came
         self._returns: dict[str, int] = {}
         self._sent: dict[str, int] = {}
+        self._looks_like: str | None = None
         self.source = Source(
             uri,
             self._take,
@@ -136,7 +138,20 @@ class Device:
             return None
         return SourceError(
             f"source '{self.source.uri}' has no sample in {counters['bytes']} bytes: check format"
+            f"{self._recognise()}"
         )
+
+    def _recognise(self) -> str:
+        """Return what the bytes without samples look like, to end a sentence with."""
+        if self._looks_like is None:
+            found = recognise(list(self.source.unread))
+            if found:
+                self._looks_like = f"; {found[0].sentence}"
+            elif self.source.uri.startswith("serial:"):
+                self._looks_like = "; no known format is in them, as at a wrong baud: " + PROBE
+            else:
+                self._looks_like = ""
+        return self._looks_like
 
     def describe(self, status: Status) -> None:
         """Add link, decoder, checks and device time to a status."""
@@ -218,6 +233,7 @@ class Device:
             "check format and baud, and what the device is set to send"
         )
         text += f" ({reasons})" if reasons else ""
+        text += self._recognise()
         return Finding(FindingKind.NO_FRAMES, Severity.ERROR, text)
 
     def _describe_strangers(self) -> str:

@@ -12,18 +12,18 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from ...core import ConfigError, ImuSeries
 from ...drivers import FORMATS, parse_uri
-from ...recording import RecordingError, read_bag
+from ...recording import RecordingError, find_topics, read_bag
 from ...settings import AdapterConfig
 from ...timing import StampConfig
 from ..ros.program import in_one_line
 
 RECORDED = "file"
 DEVICE = "device"
-BAGS = (".mcap", ".db3")
+BAGS = (".mcap", ".db3", ".bag")
 CAPTURED = tuple(name for name in FORMATS if name != "dot")  # which comes over BLE only
 ALLOWED = (
-    "topic:///NAME or file://PATH (the folder of a bag, a .mcap, a .db3, an Xsens DOT .csv), or a "
-    "device, as in serial:///dev/ttyUSB0?baud=921600&format=mcu, udp://:8000?format=ximu3, "
+    "topic:///NAME or file://PATH (the folder of a bag, a .mcap, .db3 or .bag, an Xsens DOT .csv) "
+    "or a device, as in serial:///dev/ttyUSB0?baud=921600&format=mcu, udp://:8000?format=ximu3, "
     "tcp://192.168.1.5:7000?format=ximu3, ble://D4:22:CD:00:12:34"
 )
 DEVICES = ("serial", "udp", "tcp", "ble")
@@ -106,7 +106,7 @@ def load(source: Source, foot: str) -> ImuSeries:
             f"'{path}' is no bag ({', '.join(BAGS)} or a folder) and no .csv; for bytes captured "
             f"from a device add ?format= with one of {', '.join(CAPTURED)}"
         )
-    series = read_bag(path).imu(foot)
+    series = read_bag(path, topics=find_topics(path).topics).imu(foot)
     if series is None or not len(series):
         raise RecordingError(f"bag '{path}' has no samples on /{foot}/imu/data_raw")
     return series

@@ -20,8 +20,11 @@ from .foot_states import FootStates
 from .stamp_checks import StampChecks
 from .stamp_gap import StampGap
 from .stamper import Stamper
+from .topic_search import TopicSearch
 
 ReadSample = Callable[[str, Imu, int], FloatArray]
+RAW = "imu/data_raw"
+CHOOSE = f"--ros-args -r left/{RAW}:=/TOPIC -r right/{RAW}:=/TOPIC"
 TakePair = Callable[[ImuPair], None]
 
 
@@ -35,6 +38,7 @@ class FootStreams:
     aligner : makes the pairs
     states : whether each foot is there
     on_change : called when a foot has become stale, or is back
+    search : looks for raw topics of other names, where nobody publishes the usual ones
     """
 
     def __init__(
@@ -85,6 +89,9 @@ class FootStreams:
             )
             for foot in feet
         }
+        usual = {foot: f"{foot}/{topic}" for foot in FEET}
+        raw = topic == RAW
+        self.search = TopicSearch(node, self.inputs, usual, CHOOSE) if raw else None
         self.monitor = InputMonitor(node, [*self.inputs.values(), *also], config)
 
     def _receiver(self, foot: str) -> Callable[[Imu], None]:

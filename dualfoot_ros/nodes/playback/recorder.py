@@ -9,10 +9,8 @@ from typing import Any
 
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from rosbags.rosbag2 import StoragePlugin, Writer
-from rosbags.typesys import Stores, get_typestore
 
-from ...recording import METADATA, check_target, latched_qos, new_directory
+from ...recording import METADATA, check_target, new_bag, new_directory
 
 
 class RecorderNode(Node):
@@ -35,9 +33,7 @@ class RecorderNode(Node):
         self.recorded = 0
         self._stack = ExitStack()
         folder = self._stack.enter_context(new_directory(path, overwrite=False, marker=METADATA))
-        self._writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
-        self._stack.enter_context(self._writer)
-        self._types = get_typestore(Stores.ROS2_JAZZY)
+        self._writer = self._stack.enter_context(new_bag(folder, "mcap", packed=False))
         self._inputs = [self._subscribe(name, *item) for name, item in topics.items()]
 
     def _subscribe(self, topic: str, message_type: Any, profile: QoSProfile) -> Any:
@@ -45,15 +41,12 @@ class RecorderNode(Node):
         package = message_type.__module__.split(".")[0]
         type_name = f"{package}/msg/{message_type.__name__}"
         is_latched = profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
-        connection = self._writer.add_connection(
-            name,
-            type_name,
-            typestore=self._types,
-            offered_qos_profiles=[latched_qos(profile.depth)] if is_latched else [],
+        key = self._writer.add_topic(
+            name, type_name, latched_depth=profile.depth if is_latched else 0
         )
 
         def write(data: bytes) -> None:
-            self._writer.write(connection, self._now_ns(), data)
+            self._writer.write(key, self._now_ns(), data)
             self.recorded += 1
 
         return self.create_subscription(message_type, topic, write, profile, raw=True)

@@ -67,12 +67,21 @@ class WatchedInput:
         self.arrival_ns = 0
         self.last_s = self._free_s = time.monotonic()
         self._node, self._callback, self._profile, self._remedy = node, callback, profile, remedy
-        self._type_name = _type_name(message_type)
+        self._type, self._type_name = message_type, _type_name(message_type)
+        self._subscription = self._subscribe(topic)
+
+    def _subscribe(self, topic: str) -> Any:
         # rclpy's own warning of an incompatible QoS is left out: `_find_fault` says more.
         silent = SubscriptionEventCallbacks(use_default_callbacks=False)
-        self._subscription = node.create_subscription(
-            message_type, topic, self._receive, profile, event_callbacks=silent
+        return self._node.create_subscription(
+            self._type, topic, self._receive, self._profile, event_callbacks=silent
         )
+
+    def move(self, topic: str) -> None:
+        """Subscribe to another topic instead; its publisher numbers its messages anew."""
+        self._node.destroy_subscription(self._subscription)
+        self._subscription, self._number = self._subscribe(topic), None
+        self.last_s = self._free_s = time.monotonic()
 
     @property
     def topic(self) -> str:

@@ -4,33 +4,52 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
 from typing import cast
 
 import numpy as np
 
 from ...core import FEET, ImuSeries, Increments, RecordingError
+from ..open_bag import METADATA
 from ..recording import Recording
 from .options import ImportOptions
+from .tables import LAYOUTS, SUFFIXES
 
 
 @dataclass(frozen=True)
 class Format:
-    """One format: its name, its description, and the module that loads it."""
+    """One format: its name, its description, and the module that loads it.
+
+    ``options`` are the fields of :class:`ImportOptions` that it uses beside the sources;
+    ``preset`` names the layout of its tables, where it is one of those.
+    """
 
     name: str
     description: str
     suffixes: tuple[str, ...]
     module: str
+    options: tuple[str, ...] = ()
+    preset: str = ""
 
     def load(self, options: ImportOptions) -> Recording:
         """Load a recording; raise RecordingError when the files are not as the format says."""
         module = importlib.import_module(f".{self.module}", __package__)
-        return cast(Callable[[ImportOptions], Recording], module.load)(options)
+        load = cast(Callable[[ImportOptions], Recording], module.load)
+        return load(replace(options, preset=self.preset) if self.preset else options)
 
 
+OF_ALL = ("sources", "left", "right", "right_offset_s", "increments")
 FOLDER = "/"
-BAG_SUFFIXES = (FOLDER, ".mcap", ".db3")
+CAPTURE = "capture"
+TABLES = "/tables"  # a folder that is no bag
+BAG_SUFFIX_FILES = {".mcap", ".db3", ".bag"}
+BAG_SUFFIXES = (FOLDER, ".mcap", ".db3", ".bag")
+TABLE_OPTIONS = (
+    *("axes", "field_scale", "force_unit", "rate_unit", "layout", "known_layout", "preset"),
+    *("left_device", "right_device"),
+)
+FLAGS = {"layout": "--columns, --rate and the like", "known_layout": "--layout"}
 FORMATS = (
     Format(
         "dual-feet",
@@ -39,16 +58,29 @@ FORMATS = (
         "dual_feet",
     ),
     Format(
-        "xsens-dot",
-        "two .csv exports of the Xsens DOT app, one a foot (--left, --right)",
-        (".csv",),
-        "xsens_dot",
-    ),
-    Format(
         "rosbag",
-        "a bag of two sensor_msgs/Imu topics with other names, axes or units (--left-topic ...)",
+        "a bag, also of ROS 1, whose topics have other names, axes, units or stamps",
         BAG_SUFFIXES,
         "rosbag",
+        options=("axes", "left_topic", "right_topic", "force_unit", "rate_unit", "stamps"),
+    ),
+    Format(
+        CAPTURE,
+        "bytes captured from two devices, one file a foot (--left, --right, --capture)",
+        (".ximu3",),
+        "captures",
+        options=("axes", "capture", "capture_rate"),
+    ),
+    Format(
+        "csv",
+        "any table as text; columns, time and units are found by names, values and motion",
+        (*sorted(SUFFIXES), TABLES),
+        "csv_tables",
+        TABLE_OPTIONS,
+    ),
+    *(
+        Format(layout.name, layout.about, (), "csv_tables", TABLE_OPTIONS, layout.name)
+        for layout in LAYOUTS
     ),
 )
 
@@ -71,10 +103,51 @@ def import_recording(options: ImportOptions, name: str = "auto") -> Recording:
     for file in files:
         if not file.exists():
             raise RecordingError(f"there is no file '{file}'")
-    suffix = FOLDER if files[0].is_dir() else files[0].suffix.lower()
-    recording = _format(name, suffix).load(options)
-    recording = _declared(recording, options.increments)
+    if name == "auto" and options.capture:
+        name = CAPTURE
+    chosen = _format(name, _kind(files[0]))
+    check_options(options, chosen)
+    recording = _declared(chosen.load(options), options.increments)
     return _shifted(recording, round(options.right_offset_s * 1e9))
+
+
+def check_options(options: ImportOptions, chosen: Format) -> None:
+    """Refuse an option that ``chosen`` would ignore.
+
+    Raises
+    ------
+    RecordingError
+        Names the option, and the formats that it is for.
+    """
+    for spec in fields(options):
+        if spec.name in (*OF_ALL, *chosen.options) or getattr(options, spec.name) == spec.default:
+            continue
+        able = [f.name for f in FORMATS if spec.name in f.options and not f.preset]
+        flag = FLAGS.get(spec.name, f"--{spec.name.replace('_', '-')}")
+        raise RecordingError(
+            f"{flag} does not apply to the format {chosen.name}; it is for {', '.join(able)}"
+        )
+
+
+def is_table(path: Path) -> bool:
+    """Return whether ``path`` is a table as text, or a folder of some, by its name."""
+    return _kind(path) in (*SUFFIXES, TABLES)
+
+
+def is_export(path: Path) -> bool:
+    """Return whether ``path`` is to be imported, and is no bag, by its name."""
+    kind = _kind(path)
+    return any(kind in known.suffixes for known in FORMATS if known.module != "rosbag")
+
+
+def _kind(path: Path) -> str:
+    """Return the ending of a file, FOLDER for a bag, TABLES for another folder."""
+    if not path.is_dir():
+        return path.suffix.lower()
+    if (path / METADATA).exists():
+        return FOLDER
+    held = {entry.suffix.lower() for entry in path.iterdir()}
+    return FOLDER if held & BAG_SUFFIX_FILES or not held & (SUFFIXES | {""}) else TABLES
 
 
 def _format(name: str, suffix: str) -> Format:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -16,9 +17,11 @@ from ...core import (
     RecordingError,
     axes_matrix,
 )
-from ..read import read_bag
+from ..read import read_logged
 from ..recording import Recording
+from ..topic_choice import find_topics
 from ..topics import Topics
+from .bag_stamps import restamped
 from .options import ImportOptions
 
 
@@ -35,35 +38,40 @@ def load(options: ImportOptions) -> Recording:
     if len(options.sources) != 1 or options.left or options.right:
         raise RecordingError("a bag holds both feet; give exactly one, without --left and --right")
     rotation = np.array(axes_matrix(options.axes))
-    force = _scale("force unit", options.force_unit, FORCE_UNITS)
-    rate = _scale("rate unit", options.rate_unit, RATE_UNITS)
-    default = Topics()
-    topics = Topics(
-        left=replace(default.left, imu=options.left_topic or default.left.imu),
-        right=replace(default.right, imu=options.right_topic or default.right.imu),
-    )
-    recording = read_bag(options.sources[0], topics=topics)
-    missing = [topics.of(foot).imu for foot in FEET if recording.imu(foot) is None]
-    if missing:
-        present = ", ".join(recording.imu_topics) or "none"
-        raise RecordingError(
-            f"'{options.sources[0]}' has no topic '{missing[0]}'; its sensor_msgs/Imu topics are: "
-            f"{present}; name two of them with --left-topic and --right-topic"
-        )
+    force_unit, rate_unit = options.force_unit or "m/s^2", options.rate_unit or "rad/s"
+    force = _scale("force unit", force_unit, FORCE_UNITS)
+    rate = _scale("rate unit", rate_unit, RATE_UNITS)
+    choice = find_topics(options.sources[0], options.left_topic, options.right_topic)
+    recording, logged = read_logged(options.sources[0], topics=choice.topics)
+    _check_topics(options.sources[0], recording)
+    recording, stamping = restamped(recording, logged, options.stamps)
     notes = {
         **recording.notes,
+        **({"topics": "; ".join(choice.sentences)} if choice.sentences else {}),
+        **({"stamps": stamping} if stamping else {}),
         "source": options.sources[0].name,
         "format": "rosbag",
         "axes": f"forward, left, up were {options.axes}",
-        "units": f"specific force was {options.force_unit}, angular rate {options.rate_unit}",
+        "units": f"specific force was {force_unit}, angular rate {rate_unit}",
     }
     return replace(
         recording,
         left=_turned(recording.left, rotation, force, rate),
         right=_turned(recording.right, rotation, force, rate),
         notes=notes,
-        topics=default,
+        topics=Topics(),
     )
+
+
+def _check_topics(path: Path, recording: Recording) -> None:
+    missing = [recording.topics.of(f).samples for f in FEET if recording.imu(f) is None]
+    if missing:
+        present = ", ".join(recording.imu_topics) or "none"
+        raise RecordingError(
+            f"'{path}' has no topic '{missing[0]}'; its sensor_msgs/Imu topics are: {present}; "
+            "name two of them with --left-topic and --right-topic (or an accelerometer's and a "
+            "gyro's, as ACCELEROMETER,GYRO)"
+        )
 
 
 def _scale(what: str, unit: str, known: Mapping[str, float]) -> float:

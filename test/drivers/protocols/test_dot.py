@@ -56,6 +56,19 @@ def test_columns_are_found_by_name_whatever_their_order():
     assert sample.ticks == 16667
 
 
+@pytest.mark.parametrize("sign", [b",", b";", b"\t"])
+def test_counters_as_floats_quoted_names_and_tabs_are_read_as_the_importer_reads_them(sign):
+    lines = [
+        b'"PacketCounter",SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z\n',
+        b"1.0,1000000.0,0,0,9.81,0,0,180\n2.0,1016667.00,0,0,9.81,0,0,180\n",
+    ]
+    decoder = DotCsvDecoder()
+    samples = decoder.feed(b"".join(lines).replace(b",", sign), 5)
+    assert [sample.ticks for sample in samples] == [1000000, 1016667]
+    assert [sample.counter for sample in samples] == [1, 2]
+    assert not decoder.counters["malformed"]
+
+
 def test_an_export_without_acceleration_is_counted_as_incomplete():
     decoder = DotCsvDecoder()
     decoder.feed(b"PacketCounter,SampleTimeFine,FreeAcc_X,FreeAcc_Y,FreeAcc_Z\n1,2,3,4,5\n", 5)

@@ -13,6 +13,7 @@ from dualfoot_ros.drivers.protocols.registry import make_decoder
 from ..frames import (
     FORMATS,
     PERIOD_US,
+    TIMED,
     decoder_format,
     frame,
     preamble,
@@ -62,6 +63,7 @@ KINDS = {
     "witmotion": "sampled",
     "xbus": "compensated",
     "vectornav": "sampled",
+    "vectornav_ascii": "sampled",
     "dot_csv": "compensated",
 }
 
@@ -73,7 +75,7 @@ def test_samples_say_what_they_are_where_the_maker_does(name):
     assert {sample.increments for sample in samples} <= {None, KINDS[name]}
 
 
-@formats
+@pytest.mark.parametrize("name", TIMED)
 def test_device_time_advances_by_the_sampling_period(name):
     samples, _ = decode(name, stream(name, 40))
     steps = {(b.ticks - a.ticks) * b.tick_ns for a, b in itertools.pairwise(samples)}

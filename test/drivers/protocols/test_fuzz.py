@@ -13,7 +13,7 @@ def test_a_short_fuzz_of_every_decoder_breaks_no_promise():
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout + run.stderr
     results = json.loads(run.stdout)["results"]
-    assert len(results) == 8
+    assert len(results) == 9
     for result in results:
         assert result["executions"] == 1500
         assert result["failures"] == []

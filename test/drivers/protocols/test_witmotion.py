@@ -7,7 +7,7 @@ import pytest
 
 from dualfoot_ros.drivers.protocols.witmotion import WitMotionConfig, WitMotionDecoder
 
-from ..frames import wit, witmotion
+from ..frames import truth, wit, witmotion, witmotion_combined
 
 # 0x55 0x51, x 0, y 0, z 2048 (1 g of 16), temperature 2550; sum 0x55+0x51+0x08+0xF6+0x09 = 0x1AD.
 ACCELERATION = bytes.fromhex("55 51 0000 0000 0008 F609 AD")
@@ -82,3 +82,43 @@ def test_the_magnetic_field_comes_when_its_unit_is_given():
     field = wit(0x54, (1000).to_bytes(2, "little") + bytes(6))
     (sample,) = decoder.feed(field + ACCELERATION + RATE, 5)
     assert sample.magnetic_field == pytest.approx((1e-5, 0.0, 0.0))
+
+
+def test_a_frame_of_a_bluetooth_model_is_a_whole_sample():
+    frames = b"".join(witmotion_combined(k) for k in range(500))
+    decoder = WitMotionDecoder()
+    samples = decoder.feed(frames, 5)
+    assert len(samples) == 500
+    for k, sample in enumerate(samples):
+        force, rate = truth(k)
+        assert sample.specific_force == pytest.approx(force, abs=3e-3)
+        assert sample.angular_rate == pytest.approx(rate, abs=6e-4)
+        assert sample.ticks is None
+    assert not decoder.counters["garbage_bytes"]
+
+
+def test_such_frames_come_at_once_one_by_one_as_notifications_do():
+    decoder = WitMotionDecoder()
+    counts = [len(decoder.feed(witmotion_combined(k), 5)) for k in range(6)]
+    assert counts[1:] == [2, 1, 1, 1, 1]  # the first waits until a second confirms it
+
+
+@pytest.mark.parametrize("lost", range(1, 20))
+def test_missing_bytes_cost_two_such_samples_and_the_others_are_right(lost):
+    frames = [witmotion_combined(k) for k in range(12)]
+    frames[4] = frames[4][:-lost]
+    samples = WitMotionDecoder().feed(b"".join(frames), 5)
+    right = [truth(k)[0] for k in range(12)]
+    found = [
+        s for s in samples if any(s.specific_force == pytest.approx(f, abs=3e-3) for f in right)
+    ]
+    assert len(found) >= 10
+    assert len(found) == len(samples)
+
+
+def test_answers_about_registers_are_stepped_over():
+    answer = b"\x55\x71\x3a\x00" + bytes(16)
+    decoder = WitMotionDecoder()
+    samples = decoder.feed(b"".join(witmotion_combined(k) + answer for k in range(5)), 5)
+    assert len(samples) == 5
+    assert decoder.counters["other"] == 5

@@ -10,10 +10,11 @@ import pytest
 
 from dualfoot_ros.drivers import Source, SourceError, State, make_transport, parse_uri
 
-from ..frames import dot, truth
+from ..frames import dot, truth, witmotion_combined
 from ..links import Collector, held, settle
 
 BASE = "1517{}-4947-11e9-8646-d663bd873d93"
+WITMOTION = "0000ffe4-0000-1000-8000-00805f9a34fb"
 URI = "ble://D4:22:CD:00:12:34?payload=rate&retry_first=0.01&retry_max=0.05"
 
 
@@ -43,6 +44,10 @@ class Client:
     async def start_notify(self, characteristic, callback):
         self.notified = callback
         self.radio.log.append(("notify", characteristic))
+        if characteristic == WITMOTION:  # which sends by itself
+            loop = asyncio.get_running_loop()
+            for k in range(5):
+                loop.call_soon(callback, 0, bytearray(witmotion_combined(k)))
 
     async def write_gatt_char(self, characteristic, data, response):
         self.radio.log.append(("write", characteristic, bytes(data)))
@@ -87,6 +92,18 @@ def test_a_dot_is_asked_to_measure_read_and_asked_to_stop(radio):
         ("disconnect",),
     ]
     assert settle(before) == before
+
+
+def test_a_witmotion_sends_by_itself_and_is_asked_for_nothing(radio):
+    collector = Collector()
+    with Source("ble://D4:22:CD:00:12:34?format=witmotion", collector.take):
+        assert collector.wait_for_samples(5)
+    assert collector.samples[4].specific_force == pytest.approx(truth(4)[0], abs=3e-3)
+    assert radio.log == [
+        ("connect", "D4:22:CD:00:12:34"),
+        ("notify", WITMOTION),
+        ("disconnect",),
+    ]
 
 
 def test_a_dot_that_leaves_is_connected_to_again(radio):

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from drivers.frames import stream
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.io import savemat
@@ -11,7 +12,12 @@ from scipy.io import savemat
 from dualfoot_ros.core import ImuSeries, Increments
 from dualfoot_ros.core.errors import ConfigError
 from dualfoot_ros.recording import RecordingError, Topics, write_bag
-from dualfoot_ros.recording.importers import FORMATS, ImportOptions, import_recording
+from dualfoot_ros.recording.importers import (
+    FORMATS,
+    ImportOptions,
+    import_recording,
+    read_sensor,
+)
 from dualfoot_ros.recording.importers.dual_feet_walks import reference_of
 from dualfoot_ros.recording.importers.sample_counter import same_wrap, unwrap_us
 
@@ -198,16 +204,16 @@ def test_what_is_wrong_with_an_export_is_said(tmp_path, pair):
     left, right = pair
     no_force = export(tmp_path / "a.csv", columns=COLUMNS.replace("Acc", "FreeAcc"))
     text = export(tmp_path / "b.csv", rows=["1, 2, x, 4, 5, 6, 7, 8, 9, 9, 9"])
-    short = export(tmp_path / "c.csv", rows=["1, 2, 3"])
+    short = export(tmp_path / "c.csv", rows=["1, 2, 3", "2, 3, 4"])
     none = export(tmp_path / "d.csv", count=0, rows=[" "])
     other = tmp_path / "e.csv"
     other.write_text("time,x,y\n1,2,3\n")
     for broken, sentence in [
-        (no_force, "no column Acc_X, Acc_Y, Acc_Z"),
+        (no_force, r"no specific force: it holds free acceleration \(gravity taken out\)"),
         (text, "is damaged"),
         (short, "is damaged"),
         (none, "no sample"),
-        (other, "no Xsens DOT export"),
+        (other, "no specific force and no angular rate: it holds the columns 'time', 'x', 'y'"),
     ]:
         with pytest.raises(RecordingError, match=f"{broken.name}.*{sentence}"):
             import_recording(ImportOptions(left=broken, right=right))
@@ -290,11 +296,21 @@ def test_every_format_loads_by_its_name(tmp_path, pair):
     }
     bag = write_bag(tmp_path / "bag", import_recording(sources["dual-feet"]))
     sources["rosbag"] = ImportOptions((bag,))
+    for foot in ("left", "right"):
+        (tmp_path / f"{foot}.ximu3").write_bytes(stream("ximu3", 20))
+    sources["capture"] = ImportOptions(
+        left=tmp_path / "left.ximu3", right=tmp_path / "right.ximu3"
+    )
+    sources["csv"] = sources["xsens-dot"]
     for known in FORMATS:
+        if known.preset not in ("", "xsens-dot"):  # these layouts have tests of their own
+            continue
         for name in (known.name, "auto"):
             loaded = import_recording(sources[known.name], name)
             assert len(loaded.left) == 20
-            assert loaded.right.increments is Increments.COMPENSATED  # all from Xsens DOT
+            averaged = known.name == "capture"  # of an x-IMU3; the others are from Xsens DOT
+            kind = Increments.AVERAGED if averaged else Increments.COMPENSATED
+            assert loaded.right.increments is kind
     sampled = import_recording(replace(sources["rosbag"], increments="sampled"))
     assert sampled.left.increments is Increments.SAMPLED
     with pytest.raises(RecordingError, match="increments is 'smooth'; allowed is auto, compens"):
@@ -317,7 +333,7 @@ def test_every_real_walk_imports_with_both_feet_standing_at_the_start(dual_feet)
 
 def test_real_exports_read_gravity_on_the_axis_they_are_named_after(dual_feet):
     for path in sorted((dual_feet / "calibration").glob("*.csv")):
-        foot = import_recording(ImportOptions(left=path, right=path)).left
+        foot = read_sensor(path)
         axis, sign = "xyz".index(path.stem[1]), 1.0 if path.stem[2] == "u" else -1.0
         mean = np.median(foot.specific_force, axis=0)
         assert mean[axis] * sign == pytest.approx(9.8, abs=0.4), path

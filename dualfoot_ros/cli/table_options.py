@@ -1,0 +1,190 @@
+"""Options about tables (csv and the like), for ``import`` and verbs that take files as a bag."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..core import FEET, FORCE_UNITS, FORWARD_LEFT_UP, RATE_UNITS, RecordingError
+
+if TYPE_CHECKING:
+    from ..recording import Recording
+    from ..recording.importers.tables import Assumption, Layout
+
+    Arguments = argparse._ActionsContainer  # noqa: SLF001  (a parser or a group; it has no other name)
+
+TIME_UNITS = ("s", "ms", "100us", "us", "ns", "samples")
+DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t", "bar": "|", "space": " "}
+DECIMALS = {"point": ".", "comma": ","}
+HEADINGS = ("foot", "what", "taken as", "by")
+MARK = "!"  # before what the user should look at
+
+
+def add_table_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options about the layout of a table."""
+    group = parser.add_argument_group("tables (csv and the like), where the file does not tell")
+    group.add_argument(
+        "--columns",
+        metavar="ROLE=NAME,...",
+        help="columns by name, or by number from 1: time, counter, device, ax ay az (force), "
+        "gx gy gz (rate), mx my mz (field)",
+    )
+    group.add_argument("--time-unit", choices=TIME_UNITS, help="unit of the time")
+    group.add_argument("--rate", type=float, metavar="HZ", help="sampling rate")
+    group.add_argument(
+        "--delimiter", choices=[*DELIMITERS, *",;|"], help="what separates the cells"
+    )
+    group.add_argument("--decimal", choices=[*DECIMALS, *".,"], help="decimal sign")
+    group.add_argument("--skip", type=int, metavar="N", help="lines to skip before the table")
+    for foot in FEET:
+        group.add_argument(
+            f"--{foot}-device",
+            metavar="ID",
+            help=f"device of the {foot} foot, where a column names the device",
+        )
+    add_layout_argument(group)
+    group.add_argument(
+        "--save-layout", type=Path, metavar="YAML", help="keep the layout that was found"
+    )
+
+
+def add_layout_argument(parser: Arguments) -> None:
+    """Add ``--layout``."""
+    parser.add_argument(
+        "--layout", type=Path, metavar="YAML", help="layout of the table, of --save-layout"
+    )
+
+
+def add_unit_arguments(parser: Arguments) -> None:
+    """Add ``--force-unit`` and ``--rate-unit``."""
+    parser.add_argument(
+        "--force-unit",
+        choices=FORCE_UNITS,
+        help="unit of the specific force (default: m/s^2 in a bag; a table tells)",
+    )
+    parser.add_argument(
+        "--rate-unit",
+        choices=RATE_UNITS,
+        help="unit of the angular rate (default: rad/s in a bag; a table tells)",
+    )
+
+
+def add_intake_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options with which a verb takes files of sensors in place of a bag."""
+    group = parser.add_argument_group("files of sensors in place of BAG")
+    for foot in FEET:
+        group.add_argument(
+            f"--{foot}", type=Path, metavar="FILE", help=f"file of the {foot} foot's sensor"
+        )
+    add_axes_argument(group)
+    add_unit_arguments(group)
+    add_layout_argument(group)
+
+
+def add_axes_argument(parser: Arguments) -> None:
+    """Add ``--axes``."""
+    parser.add_argument(
+        "--axes",
+        default=FORWARD_LEFT_UP,
+        metavar="AXES",
+        help="device axes that point forward, left and up, written --axes=+x+y+z "
+        "(default: %(default)s; not for dual-feet)",
+    )
+
+
+def given_layout(args: argparse.Namespace) -> Layout | None:
+    """Return what the options of :func:`add_table_arguments` say; None where they say nothing.
+
+    Raises
+    ------
+    RecordingError
+        When a number is out of range, or a role unknown.
+    """
+    from ..recording.importers.tables import Layout, parse_columns
+
+    if args.rate is not None and not args.rate > 0.0:
+        raise RecordingError(f"--rate is {args.rate:g}; allowed is more than 0 Hz")
+    if args.skip is not None and args.skip < 0:
+        raise RecordingError(f"--skip is {args.skip}; allowed is 0 or more lines")
+    given = Layout(
+        columns={} if args.columns is None else parse_columns(args.columns),
+        delimiter=DELIMITERS.get(args.delimiter, args.delimiter),
+        decimal=DECIMALS.get(args.decimal, args.decimal),
+        skip=args.skip or 0,
+        time_units=() if args.time_unit is None else (args.time_unit,),
+        rate_hz=args.rate,
+    )
+    return None if given == Layout() else given
+
+
+def known_layout(args: argparse.Namespace) -> Layout | None:
+    """Return the layout of ``--layout``, or None."""
+    from ..recording.importers.tables import load_layout
+
+    return None if args.layout is None else load_layout(args.layout)
+
+
+def import_in_memory(path: str | None, args: argparse.Namespace) -> Recording:
+    """Return the recording of ``path`` or of ``--left`` and ``--right``; print what was assumed.
+
+    Raises
+    ------
+    RecordingError
+        When they are no such files, or their columns, time or units are not known.
+    """
+    from ..recording.importers import ImportOptions, import_recording
+    from .printing import print_note
+
+    options = ImportOptions(
+        sources=() if path is None else (Path(path),),
+        left=args.left,
+        right=args.right,
+        axes=args.axes,
+        force_unit=args.force_unit,
+        rate_unit=args.rate_unit,
+        known_layout=known_layout(args),
+    )
+    recording = import_recording(options)
+    for line in assumption_lines(recording):
+        print_note(line)
+    return recording
+
+
+def doubts(recording: Recording) -> list[str]:
+    """Return a sentence for each assumption that the user should look at."""
+    from ..recording.importers.tables import from_note
+
+    found = from_note(recording.notes.get("assumptions", "[]"))
+    return [
+        f"{one.foot + ' foot: ' if one.foot else ''}{one.subject}: {one.value}"
+        for one in found
+        if one.doubtful
+    ]
+
+
+def assumption_lines(recording: Recording) -> list[str]:
+    """Return what was assumed about the files of a recording, as the lines of a table."""
+    from ..recording.importers.tables import from_note
+
+    found = from_note(recording.notes.get("assumptions", "[]"))
+    if not found:
+        return []
+    rows = [HEADINGS, *_merged(found)]
+    widths = [max(len(row[k]) for row in rows) for k in range(len(HEADINGS))]
+    return [_line(row, widths) for row in rows]
+
+
+def _line(row: Sequence[str], widths: Sequence[int]) -> str:
+    cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+    return "  ".join(cells).rstrip()
+
+
+def _merged(found: Iterable[Assumption]) -> list[tuple[str, ...]]:
+    """Return one row for what is the same of both feet."""
+    rows: dict[tuple[str, ...], list[str]] = {}
+    for one in found:
+        mark = f"{MARK} " if one.doubtful else ""
+        rows.setdefault((one.subject, f"{mark}{one.value}", str(one.origin)), []).append(one.foot)
+    return [("both" if len(set(feet)) > 1 else feet[0], *row) for row, feet in rows.items()]

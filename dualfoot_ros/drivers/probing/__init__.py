@@ -1,0 +1,1 @@
+"""Looking at unknown devices: what they send, in which format, and which ones are there."""

@@ -171,7 +171,7 @@ def test_the_command_line_page_has_every_option_of_every_verb_and_no_other(verb)
     assert shown == options_of(parser_of(verb))
 
 
-PERSON_FILES = ("tum", "csv", "geojson", "kml", "gpx", "position", "radius")
+PERSON_FILES = ("tum", "csv", "geojson", "kml", "gpx", "position", "radius_95_m")
 
 
 @pages

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .arguments import recording_name
+
 if TYPE_CHECKING:
     from ..evaluation import Evaluation
     from ..evaluation.exports import FloorPlan, GeoOrigin
@@ -47,7 +49,7 @@ class ExportOptions:
             raise EvaluationError(
                 "--scale and --start-pixel belong to --floor-plan, which is missing"
             )
-        return cls(Path(args.bag).name, origin, args.estimate_bag, plan)
+        return cls(Path(recording_name(args)).name, origin, args.estimate_bag, plan)
 
 
 OPTIONS = ("origin", "estimate_bag", "floor_plan")

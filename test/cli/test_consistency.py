@@ -57,7 +57,7 @@ def test_walks_that_cannot_be_tracked_are_named_by_their_seed(capsys, monkeypatc
     def refused(job):
         raise AlignmentError("nobody stands")
 
-    monkeypatch.setattr("dualfoot_ros.evaluation.batch.monte_carlo.score_walk", refused)
+    monkeypatch.setattr("dualfoot_ros.evaluation.batch.score_walk", refused)
     assert main(["consistency", *FEW]) == 2
     err = capsys.readouterr().err
     assert "walk of seed 0" in err and "walk of seed 1" in err

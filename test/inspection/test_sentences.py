@@ -145,7 +145,15 @@ def test_rewording_every_sentence_changes_nothing_that_is_decided(bags, capsys, 
 def test_these_recordings_show_all_but_a_few_kinds(bags, capsys):
     decided, _ = outcomes({name: bag for name, bag in bags.items() if name != "exchanged"}, capsys)
     seen = {kind for _, _, kinds, _, _ in decided.values() for kind, _ in kinds}
-    rare = {"cut_off", "late_standstill", "pressure_clock", "field_stamps", "swapped", *OF_WALKS}
+    rare = {
+        "cut_off",
+        "late_standstill",
+        "pressure_clock",
+        "field_stamps",
+        "swapped",
+        "restless_start",
+        *OF_WALKS,
+    }
     assert seen | rare == kinds_made_in("inspection")
     severities = {severity for _, _, kinds, _, _ in decided.values() for _, severity in kinds}
     assert severities == set(Severity)

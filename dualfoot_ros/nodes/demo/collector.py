@@ -118,4 +118,6 @@ def _relative_covariance(
     middle = _covariances([message.pose.covariance for message in person])[:, :3, :3]
     both = left.position_covariance + right.position_covariance
     relative: FloatArray = 2.0 * both - 4.0 * middle
+    relative[:, 2, :] = relative[:, :, 2] = 0.0  # the person's height is that of the floor
+    relative[:, 2, 2] = both[:, 2, 2]
     return relative

@@ -12,7 +12,7 @@ from sensor_msgs.msg import Imu, MagneticField
 from dualfoot_ros.core import EventKind, TrackerConfig
 from dualfoot_ros.core.tracker import fields_of
 from dualfoot_ros.drivers import State
-from dualfoot_ros.evaluation import track
+from dualfoot_ros.evaluation import as_live, track
 from dualfoot_ros.nodes.demo.live_graph import run_live, same_bits
 from dualfoot_ros.nodes.fusion import FusionNode
 from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
@@ -51,7 +51,7 @@ def test_a_walk_through_the_nodes_is_the_offline_run_to_the_bit(context, felt):
     }
     live, recording = run_live(felt, configs, context), read_bag(felt)
     for name, config in configs.items():
-        batch = track(recording, config)
+        batch = track(recording, as_live(config))
         assert live[name].lost == 0
         assert same_bits(live[name].trajectory, batch)
         aids = live[name].trajectory.of_kind(EventKind.AID)

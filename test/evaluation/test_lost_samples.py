@@ -1,6 +1,7 @@
 """Samples that are lost at random cost a track little."""
 
 import numpy as np
+import pytest
 
 from dualfoot_ros.evaluation import RunOptions, run
 from dualfoot_ros.recording import Recording
@@ -20,9 +21,19 @@ def error_m(walk, lost, seed):
     return result.truth_report.midpoint.rmse_m
 
 
-def test_five_percent_of_lost_samples_make_the_error_at_most_twice_as_large():
-    """Measured 1.72 on feet that cone; 1.37 on feet that do not (gait.coning=0)."""
+@pytest.fixture(scope="module")
+def cost():
+    """Return by which factor 5 % of lost samples of each foot enlarge the median error."""
     walks = [simulate(seed=seed) for seed in range(8)]
     errors = [[error_m(walk, lost, k) for lost in (0.0, 0.05)] for k, walk in enumerate(walks)]
     whole, lossy = np.median(errors, axis=0)
-    assert lossy <= 2.0 * whole
+    return lossy / whole
+
+
+def test_five_percent_of_lost_samples_make_the_error_less_than_twice_as_large(cost):
+    assert cost < 2.0
+
+
+@pytest.mark.xfail(strict=True, reason="1.72 on feet that cone; 1.37 with gait.coning=0")
+def test_five_percent_of_lost_samples_make_the_error_at_most_half_as_large_again(cost):
+    assert cost <= 1.5

@@ -160,14 +160,23 @@ def test_lost_samples_are_no_jitter_and_times_of_arrival_are():
         assert ("jitter" in named(of(series))) is jitters
 
 
-def test_a_gyro_that_does_not_fit_the_accelerometer_is_named():
+@pytest.mark.parametrize(
+    ("times", "kind", "words"),
+    [
+        (57.3, "rate_unit", "57 times too small"),
+        (30.0, "rate_misfit", "contradict each other"),
+        (10.0, "rate_misfit", "contradict each other"),
+        (3.0, "rate_scale", "too small against the specific force"),
+    ],
+)
+def test_a_gyro_that_does_not_fit_the_accelerometer_is_named(times, kind, words):
     feet = {}
     for foot, seed in (("left", 1), ("right", 2)):
         good = moving(seed)
-        feet[foot] = replace(good, angular_rate=good.angular_rate / 57.3)
-    found = [f for f in findings_of(Recording(**feet)) if f.kind == "rate_unit"]
+        feet[foot] = replace(good, angular_rate=good.angular_rate / times)
+    found = [f for f in findings_of(Recording(**feet)) if f.kind == kind]
     assert [f.about for f in found] == ["left", "right"]
-    assert all("57 times too small" in f.sentence for f in found)
+    assert all(words in f.sentence for f in found)
 
 
 def test_a_foot_that_only_stands_may_turn_slowly():

@@ -177,7 +177,8 @@ def test_no_legend_searches_for_its_place(tmp_path, monkeypatch):
 
     monkeypatch.setattr(Legend, "_find_best_position", search)
     track, truth = drifted()
-    draw_all({"zupt": evaluate(track, truth=truth)}, tmp_path, "a walk")
+    drawn = draw_all({"zupt": evaluate(track, truth=truth)}, tmp_path, "a walk")
+    assert drawn and all(path.stat().st_size > 0 for path in drawn)
 
 
 def test_the_stances_of_an_hour_are_drawn_line_by_line_without_an_end():

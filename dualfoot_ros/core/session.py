@@ -376,6 +376,11 @@ class Session:
         return found
 
     @property
+    def period_ns(self) -> int:
+        """Nominal interval of the samples, ns."""
+        return round(1e9 / self.rate_hz)
+
+    @property
     def longest_ns(self) -> int:
         """Interval between two samples above which some are missing between them, ns."""
         return round(LONGEST_STEP * 1e9 / self.rate_hz)

@@ -152,7 +152,7 @@ class DualFootTracker:
             return self._align(stamp, values)
         if jumped:
             self.counters["clock_jumps"] += 1
-            dt_ns = 2 * session_period_ns(self._session)
+            dt_ns = 2 * self._session.period_ns
         return self._track(self._session, stamp, dt_ns, values)
 
     def declare_increments(self, foot: str, kind: Increments | None) -> None:
@@ -254,7 +254,7 @@ class DualFootTracker:
         if dt_ns > MAX_GAP_NS:
             self.counters["gaps"] += 1
             before = (*before, *session.bridge(dt_ns * 1e-9))
-            dt_ns = session_period_ns(session)
+            dt_ns = session.period_ns
         elif dt_ns > session.longest_ns:
             self.counters["filled"] += 1
             before = (*before, *session.fill(stamp, dt_ns, values))
@@ -380,11 +380,6 @@ class DualFootTracker:
         if taken and (late := self._start_late(int(stamps[taken[-1]]))) is not None:
             _keep(late, taken, out, kept, events)
         return *_only(kept, stamps, out), events
-
-
-def session_period_ns(session: Session) -> int:
-    """Return the nominal interval of the samples, ns."""
-    return round(1e9 / session.rate_hz)
 
 
 def fields_of(left: ImuSeries, right: ImuSeries) -> dict[str, FieldSeries]:

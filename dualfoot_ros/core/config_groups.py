@@ -162,7 +162,7 @@ class InitialConfig(Parameters):
     velocity: float = parameter(0.01, "velocity", unit="m/s", minimum=0.0, maximum=10.0)
     tilt: float = parameter(0.01, "roll and pitch", unit="rad", minimum=0.0, maximum=1.0)
     yaw: float = parameter(
-        0.03, "yaw against the first strides", unit="rad", minimum=0.0, maximum=3.2
+        0.01, "yaw against the first strides", unit="rad", minimum=0.0, maximum=3.2
     )
     gyro_bias: float = parameter(
         8.0e-4, "lower bound of the gyro bias", unit="rad/s", minimum=0.0, maximum=1.0
@@ -232,6 +232,14 @@ class ZuptConfig(Parameters):
         "what a zero-velocity update corrects of heading and gyro bias: all (full), as in the "
         "papers, or nothing (none): they are taken as known, and their uncertainty is carried",
         choices=("full", "none"),
+    )
+    height_drift: float = parameter(
+        3.0e-3,
+        "vertical velocity they let through, alike in every stride and foot: so much less certain "
+        "is the height, until a barometer, floor or pose gives it",
+        unit="m/s",
+        minimum=0.0,
+        maximum=1.0,
     )
     bias_known: float = parameter(
         7.0e-3,

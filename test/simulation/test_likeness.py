@@ -49,6 +49,5 @@ def test_without_the_data_set_the_program_shows_the_simulated_walks_and_says_wha
     coning = numbers(run.out.splitlines()[-1].split("|", 2)[2])
     assert coning[2:] == pytest.approx([17.0, 18.0], abs=2.0)  # on the track
     assert (
-        f"the dual-feet data set (rectangle_ccw, running_track) is not in '{tmp_path}'"
-        in run.err
+        f"the dual-feet data set (rectangle_ccw, running_track) is not in '{tmp_path}'" in run.err
     )

@@ -280,7 +280,12 @@ class AidsConfig(Parameters):
         0.01, "unevenness of the floor", unit="m", minimum=1e-4, maximum=1.0
     )
     static_std: float = parameter(
-        0.02, "how far a sensor moves on a standing foot", unit="m", minimum=1e-4, maximum=1.0
+        0.0,
+        "flat_floor: how far a sensor moves on a standing foot (0: its place is no measurement); "
+        "as in the paper, whose place is taken for known, so that the covariance is too small",
+        unit="m",
+        minimum=0.0,
+        maximum=1.0,
     )
     barometer: bool = parameter(False, "height from air pressure in stance")
     barometer_std: float = parameter(

@@ -164,10 +164,11 @@ class FusionNode(Node):
 
     def _track(self, pair: ImuPair) -> None:
         update = self.tracker.add(pair)
-        self.report.add(update)
-        self.memory.note(update.announced)
-        if any(event.kind is EventKind.ALIGNED for event in update.announced):
-            self.increments.log()
+        for each in (*update.earlier, update):
+            self.report.add(each)
+            self.memory.note(each.announced)
+            if any(event.kind is EventKind.ALIGNED for event in each.announced):
+                self.increments.log()
         self.outputs.publish(update, pair.present)
 
     def destroy_node(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -11,11 +12,17 @@ from rclpy.impl.rcutils_logger import RcutilsLogger
 from ...core import FEET, DualFootTracker, Event, EventKind, Refusal, Update, refusal_of
 from ...inspection import Finding, FindingKind, Severity, start_findings
 from ...timing import Aligner
-from ..ros.diagnostics import Rates
+from ..ros.diagnostics import OVER_S, Rates
 from ..ros.status import Described, Status
 from . import event_messages
 
-LOGGED = (EventKind.ALIGNED, EventKind.HEADING, EventKind.RESET)
+LOGGED = (
+    EventKind.ALIGNED,
+    EventKind.HEADING,
+    EventKind.RESET,
+    EventKind.MISSING,
+    EventKind.JOINED,
+)
 NO_STANCE_NS = 2_000_000_000
 NOT_SHARED = 0.5  # of the pairs are interpolated; of lost samples that are filled it is less
 MOST_LAG_S = 60.0  # beyond it, the stamps are of another clock
@@ -43,7 +50,7 @@ class FusionReport:
         self._tracker, self._aligner, self._parts = tracker, aligner, parts
         self._clock, self._logger, self._external = clock, logger, external
         self._aligner_rates, self._tracker_rates = Rates(), Rates()
-        self._logged: set[Refusal] = set()
+        self._logged: dict[Refusal, float] = {}  # when pairs were refused for it last, s
         self._nis = float("nan")
         self._correction_m = 0.0
         self._phase = "aligning"
@@ -75,11 +82,18 @@ class FusionReport:
 
     def _log_refusal(self, reason: Refusal) -> None:
         if reason not in self._logged:
-            self._logged.add(reason)
             self._logger.warning(
                 f"pairs are refused: {reason.words} (further ones are only counted, as "
                 f"'tracker {reason}' in /diagnostics)"
             )
+        self._logged[reason] = time.monotonic()
+
+    def _log_refusals_over(self) -> None:
+        now_s = time.monotonic()
+        for reason, last_s in list(self._logged.items()):
+            if now_s - last_s >= OVER_S:
+                del self._logged[reason]
+                self._logger.info(f"over: pairs are refused: {reason.words}")
 
     def _add_event(self, event: Event) -> None:
         if event.kind in LOGGED:
@@ -95,6 +109,7 @@ class FusionReport:
 
     def collect(self, status: Status) -> None:
         """Fill in a status."""
+        self._log_refusals_over()
         for part in self._parts:
             part.describe(status)
         self._describe_tracker(status)

@@ -8,6 +8,7 @@ import pytest
 from dualfoot_ros.core import DualFootTracker, ImuPair, Refusal, TrackerConfig, Update
 from dualfoot_ros.inspection import Finding, FindingKind, Severity
 from dualfoot_ros.nodes.results.fusion_report import FusionReport
+from dualfoot_ros.nodes.ros.diagnostics import OVER_S
 from dualfoot_ros.nodes.ros.status import OK, WARN, Status
 from dualfoot_ros.timing import Aligner
 
@@ -130,3 +131,19 @@ def test_the_lag_behind_another_clock_is_not_given_as_a_number(fusion):
     old = Bench()
     old.track(10**12 - 3600 * 10**9)
     assert "another clock" in old.status().values["lag (s)"]
+
+
+def test_pairs_that_are_refused_are_logged_once_and_once_when_it_is_over(fusion, clock):
+    fusion.track(STEP_NS)
+    for _ in range(5):
+        fusion.track(STEP_NS)  # the same stamp again
+        clock.move_on(1.0)
+        fusion.status()
+    assert len(fusion.log.warnings) == 1 and not fusion.log.infos
+    clock.move_on(OVER_S)
+    fusion.status()
+    fusion.status()
+    words = Refusal.DUPLICATE.words
+    assert fusion.log.infos == [f"over: pairs are refused: {words}"]
+    fusion.track(STEP_NS)
+    assert len(fusion.log.warnings) == 2

@@ -142,6 +142,7 @@ class Session:
             {name: still.angular_rate.tolist() for name, still in feet.items()},
             {name: float(np.linalg.norm(still.specific_force)) for name, still in feet.items()},
             max(still.rate_std for still in feet.values()),
+            self.rate_hz,
         )
         return Event(EventKind.ALIGNED, stamp, "both", stamp, payload=levelled)
 

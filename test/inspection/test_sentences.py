@@ -152,6 +152,7 @@ def test_these_recordings_show_all_but_a_few_kinds(bags, capsys):
         "field_stamps",
         "swapped",
         "restless_start",
+        "rate_used",
         *OF_WALKS,
     }
     assert seen | rare == kinds_made_in("inspection")

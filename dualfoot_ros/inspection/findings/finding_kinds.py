@@ -47,6 +47,7 @@ class FindingKind(StrEnum):
     LOW_RATE = "low_rate", True
     SAME_SAMPLES = "same_samples", True
     WRONG_RATE = "wrong_rate", True
+    RATE_USED = "rate_used", True
 
     # stamps and clocks
     BEGINS_ANEW = "begins_anew"

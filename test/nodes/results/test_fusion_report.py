@@ -125,6 +125,18 @@ def test_values_tell_phase_and_stances_once_the_feet_have_stood(fusion):
     assert any("aligned of both" in line for line in fusion.log.infos)
 
 
+def test_a_rate_that_is_not_that_of_the_start_is_a_warning_with_both_figures(fusion):
+    for k in range(300):
+        fusion.track(10**12 + k * STEP_NS, PAIR + 1e-3 * np.sin(k + np.arange(12)))
+    assert fusion.status().values["rate used (Hz)"] == pytest.approx(100.0)
+    assert FindingKind.RATE_USED not in fusion.kinds()
+    start_ns = 10**12 + 300 * STEP_NS
+    for k in range(600):
+        fusion.track(start_ns + k * STEP_NS // 2, PAIR + 1e-3 * np.sin(k + np.arange(12)))
+    (finding,) = fusion.status().of_kind(FindingKind.RATE_USED)
+    assert "100.0 Hz" in finding.text and "200.0 Hz" in finding.text
+
+
 def test_the_lag_behind_another_clock_is_not_given_as_a_number(fusion):
     fusion.track(10**12 - 2 * 10**9)
     assert fusion.status().values["lag (s)"] == pytest.approx(2.0)

@@ -26,7 +26,13 @@ setup(
     packages=[*find_packages(include=[NAME, f"{NAME}.*"]), f"{NAME}.config"],
     package_dir={f"{NAME}.config": "config"},
     package_data={
-        f"{NAME}.config": ["*.yaml", "nodes/*.yaml", "paper_noise/*.yaml", "rviz/*.rviz"],
+        f"{NAME}.config": [
+            "*.yaml",
+            "nodes/*.yaml",
+            "paper_noise/*.yaml",
+            "rviz/*.rviz",
+            "security/*.xml",
+        ],
         f"{NAME}.evaluation.reports.html": ["*.css", "*.js"],
         NAME: ["py.typed"],
     },
@@ -36,6 +42,7 @@ setup(
         (f"share/{NAME}/config", files("config", "*.yaml")),
         (f"share/{NAME}/config/nodes", files("config/nodes", "*.yaml")),
         (f"share/{NAME}/config/rviz", files("config/rviz", "*.rviz")),
+        (f"share/{NAME}/config/security", files("config/security", "*.xml")),
         (f"share/{NAME}/config/paper_noise", files("config/paper_noise", "*.yaml")),
         (f"share/{NAME}/launch", files("launch", "*.launch.py")),
     ],
@@ -61,7 +68,7 @@ setup(
     entry_points={
         "console_scripts": [
             "dualfoot = dualfoot_ros.cli.main:main",
-            *(f"{node} = dualfoot_ros.nodes.{node}:main" for node in NODES),
+            *(f"{node} = dualfoot_ros.nodes.entry:{node}" for node in NODES),
         ],
     },
 )

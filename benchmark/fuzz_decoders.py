@@ -1,8 +1,10 @@
 """Throw damaged streams at the decoders and hold them to what they promise.
 
 One execution: a fresh decoder takes good frames, then the same frames damaged, cut in pieces
-anywhere, then two good frames.  It must raise nothing, keep its buffer bounded, count every byte,
-give finite samples only, and give the last frame's sample.
+anywhere, then two good frames.  In half of them it is the content that is damaged, in frames that
+are valid: with the right checksum, stuffing and end.  It must raise
+nothing, keep its buffer bounded, count every byte, give finite samples only, and give the last
+frame's sample.
 """
 
 from __future__ import annotations
@@ -28,6 +30,7 @@ for folder in (ROOT, ROOT / "test"):
 
 from drivers import frames  # noqa: E402  (the encoders of the tests)
 
+from benchmark.valid_frames import NAMES, sealed  # noqa: E402
 from dualfoot_ros.drivers import Decoder, Sample, make_decoder  # noqa: E402
 
 EXAMPLES = """examples:
@@ -35,7 +38,6 @@ EXAMPLES = """examples:
   python benchmark/fuzz_decoders.py --executions 20000 --formats witmotion xbus --json
   python benchmark/fuzz_decoders.py --formats mcu --seed 7 --executions 1000
 """
-NAMES = (*frames.FORMATS, "dot")
 CORPUS = 64
 SHOWN = 5
 Damage = Callable[[random.Random, bytearray], None]
@@ -91,6 +93,12 @@ def damaged(dice: random.Random, good: list[bytes]) -> bytes:
     return bytes(data)
 
 
+def valid(dice: random.Random, name: str) -> bytes:
+    """Return a few valid frames of damaged content."""
+    count = dice.randrange(1, 4)
+    return b"".join(sealed(name, dice.randrange(CORPUS), dice, DAMAGES) for _ in range(count))
+
+
 def feed(decoder: Decoder, dice: random.Random, data: bytes) -> list[Sample]:
     """Feed in pieces, or whole where each call is a message; look at the buffer each time."""
     samples: list[Sample] = []
@@ -116,7 +124,7 @@ def execute(name: str, good: list[bytes], dice: random.Random) -> tuple[int, int
     feed(decoder, dice, frames.preamble(name))
     if dice.random() < 0.5:
         feed(decoder, dice, good[0])
-    bad = damaged(dice, good)
+    bad = valid(dice, name) if dice.random() < 0.5 else damaged(dice, good)
     given = feed(decoder, dice, bad)
     last = dice.randrange(1, CORPUS)
     for piece in (good[last - 1], good[last]):

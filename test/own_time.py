@@ -7,7 +7,7 @@ import pytest
 
 
 class OwnTime:
-    """Stands in for the module ``time`` where the package reads the monotonic clock.
+    """Stands in for the module ``time`` where the package reads the monotonic or the wall clock.
 
     It stands still unless the test moves it on, however long the machine takes meanwhile.
     """
@@ -20,6 +20,9 @@ class OwnTime:
 
     def monotonic(self) -> float:
         return self.now_s
+
+    def time_ns(self) -> int:
+        return 10**18 + round(1e9 * self.now_s)
 
     def move_on(self, seconds: float) -> None:
         """Let time pass."""

@@ -64,6 +64,7 @@ class Absences:
         self.of = [Presence.JOINED, Presence.JOINED]
         self._since_ns = [0, 0]
         self._stood = [False, False]
+        self._follows = [False, False]  # feet levelled with the heading of the other one
 
     @property
     def none(self) -> bool:
@@ -93,6 +94,8 @@ class Absences:
     def back(self, foot: int, stamp: int) -> None:
         """Take note that ``foot`` has samples again: its attitude is as it was, but uncertain."""
         self.of[foot] = Presence.BACK
+        # Its speed now says nothing of where it went meanwhile: a ZUPT must not correct its place.
+        self._unknown(foot, lay.E_VEL, SWING_SPEED)
         seconds = max(0.0, (stamp - self._since_ns[foot]) * 1e-9)
         rate = STAND_RATE if self._stood[foot] else SWING_RATE
         tilt = min(LARGEST_TILT, rate * seconds)
@@ -121,16 +124,25 @@ class Absences:
         before = self._rotation(foot)
         rotation = levelled(up)
         rotation = about_z(turn_between(rotation, before)) @ rotation
-        other = 1 - foot
-        follows = self.of[other] is Presence.JOINED and self._headings.knows(foot)
-        if follows:
-            ahead = self._headings.heading_with(foot, rotation)
-            rotation = about_z(self._headings.feet[other] - ahead) @ rotation
         start = foot * lay.FOOT
         self._space.w[start + lay.ROT : start + lay.ROT + 9] = rotation.ravel()
         self._space.w[start + lay.VEL : start + lay.VEL + 3] = 0.0
+        follows = self.of[1 - foot] is Presence.JOINED and self._headings.knows(foot)
+        if follows:
+            self._face(foot)
         self._know_attitude(foot, follows=follows)
+        self._follows[foot] = follows
         self.of[foot] = Presence.LEVELLED
+
+    def _face(self, foot: int) -> float:
+        """Turn ``foot`` to where the other one heads at this moment; return that heading, rad."""
+        own, ahead = (
+            self._headings.heading_with(each, self._rotation(each)) for each in (foot, 1 - foot)
+        )
+        start = foot * lay.FOOT + lay.ROT
+        turned = about_z(ahead - own) @ self._rotation(foot)
+        self._space.w[start : start + 9] = turned.ravel()
+        return ahead
 
     def _up(self, foot: int) -> FloatArray:
         """Return where up is in the axes of a standing foot (3,): the mean force of its stance."""
@@ -171,8 +183,12 @@ class Absences:
         self._headings.absent[foot] = False
         return Event(EventKind.JOINED, self._since_ns[foot], FEET[foot], stamp)
 
-    def put_beside(self, estimate: JointEstimate, heading: float, spacing_m: float) -> Outcome:
-        """Update with the place of the feet in passing: side by side across ``heading``, level."""
+    def put_beside(self, estimate: JointEstimate, foot: int, spacing_m: float) -> Outcome:
+        """Update with the place of the feet in passing: side by side across the heading, level.
+
+        In a turn the heading of a foot in its stance is that which the other one has in passing.
+        """
+        heading = self._face(foot) if self._follows[foot] else self._headings.mean
         left = np.array([-math.sin(heading), math.cos(heading), 0.0])
         innovation = np.array(estimate.relative_position()) - (spacing_m or SPACING_M) * left
         rows = [relative_row(direction) for direction in np.eye(3).tolist()]

@@ -52,6 +52,13 @@ class RollBack:
         if firsts:
             self._replay(min(firsts), [])
 
+    def before_newest(self, change: Callable[[], None]) -> None:
+        """Run the newest epoch again after a ``change`` of the state before it."""
+        epoch = self._space.epoch
+        self._engine.restore(self._space.w, self._space.n, epoch)
+        change()
+        self._engine.rerun(self._space.w, self._space.n, epoch, epoch)
+
     def apply(self, requests: Sequence[Request]) -> list[tuple[Request, Outcome]]:
         """Apply all at their moments, or all now, and return what came of each, by epoch."""
         now = self._space.epoch

@@ -142,6 +142,7 @@ class Session:
             {name: still.angular_rate.tolist() for name, still in feet.items()},
             {name: float(np.linalg.norm(still.specific_force)) for name, still in feet.items()},
             max(still.rate_std for still in feet.values()),
+            self.rate_hz,
         )
         return Event(EventKind.ALIGNED, stamp, "both", stamp, payload=levelled)
 
@@ -226,7 +227,8 @@ class Session:
                 standing = bool((notices >> (foot * lay.NOTICE_SHIFT)) & lay.STANCE_ENDED)
                 found.append(self.absences.gone(foot, stamp, standing=standing))
             elif notices & (lay.NOTICE_BACK << foot):
-                self.absences.back(foot, stamp)
+                # Before its first sample is used: that may be a ZUPT.
+                self._roll_back.before_newest(partial(self.absences.back, foot, stamp))
             else:
                 continue
             self._roll_back.forget()
@@ -295,9 +297,7 @@ class Session:
             if not self._gait.remembers(moment):
                 return []
             spacing = self.spacing[0] if self.spacing else 0.0
-            beside = partial(
-                self.absences.put_beside, heading=self.headings.mean, spacing_m=spacing
-            )
+            beside = partial(self.absences.put_beside, foot=foot, spacing_m=spacing)
             self._roll_back.apply([Request(moment, True, beside)])
         found.append(self.absences.joined(foot, now))
         self._watch()

@@ -90,8 +90,8 @@ class FusionNode(Node):
         self.memory = KeptBiases(own.bias_memory, self.tracker, self.get_logger())
         warn = self.get_logger().warning
         self._unit_checks = {foot: UnitCheck(warn, foot) for foot in FEET}
-        self._stream_check = StreamCheck(self.tracker)
         self._listen(own.sync == "external", values)
+        self.stream_check = StreamCheck(self.tracker, self.streams.aligner)
         self._obey(frames.odom)
         self.report = FusionReport(
             self.tracker,
@@ -101,7 +101,7 @@ class FusionNode(Node):
                 self.increments,
                 self.outputs.person.trust,
                 *self._unit_checks.values(),
-                self._stream_check,
+                self.stream_check,
             ],
             self.get_clock(),
             self.get_logger(),
@@ -159,15 +159,16 @@ class FusionNode(Node):
         if foot in self._calibration:
             values = self._calibration[foot].values(values)
         self._unit_checks[foot].add(values.tolist())
-        self._stream_check.add(foot, stamp_ns, values)
+        self.stream_check.add(foot, stamp_ns, values)
         return values
 
     def _track(self, pair: ImuPair) -> None:
         update = self.tracker.add(pair)
-        self.report.add(update)
-        self.memory.note(update.announced)
-        if any(event.kind is EventKind.ALIGNED for event in update.announced):
-            self.increments.log()
+        for each in (*update.earlier, update):
+            self.report.add(each)
+            self.memory.note(each.announced)
+            if any(event.kind is EventKind.ALIGNED for event in each.announced):
+                self.increments.log()
         self.outputs.publish(update, pair.present)
 
     def destroy_node(self) -> None:
@@ -178,7 +179,7 @@ class FusionNode(Node):
     def _reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self.tracker.reset()
         self.streams.reset()
-        self._stream_check.reset()
+        self.stream_check.reset()
         self.outputs.clear()
         self.get_logger().info("reset: stand still until the alignment is done")
         response.success = True

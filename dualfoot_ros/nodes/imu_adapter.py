@@ -264,6 +264,8 @@ class ImuAdapterNode(Node):
         return stamp_ns
 
     def _stamp(self, header_ns: int | None, arrival_ns: int) -> int | None:
+        if header_ns is None and self._config.stamp == "even":
+            header_ns = 0
         if header_ns is None:  # a device without a clock
             return arrival_ns + round(1e9 * self._config.stamp_offset)
         return self.stamper.stamp(self._foot, header_ns, arrival_ns)

@@ -153,7 +153,8 @@ class AdapterConfig(Parameters):
     stamp: str = parameter(
         "auto",
         "stamp of a sample: header as it came, device the same as time of the device's clock "
-        "followed on the host's, arrival the time it came; auto: device for devices, else header",
+        "followed on the host's, arrival the time it came, even that of the header (or of the "
+        "arrival) at the regular intervals of the sensor; auto: device for devices, else header",
         choices=("auto", *POLICIES),
     )
     stamp_offset: float = parameter(

@@ -166,6 +166,7 @@ def test_these_recordings_show_all_but_a_few_kinds(plain):
         "field_stamps",
         "swapped",
         "restless_start",
+        "rate_used",
         *OF_WALKS,
     }
     assert seen | rare == kinds_made_in("inspection")

@@ -37,7 +37,7 @@ from dualfoot_ros.nodes.inputs.stamper import Stamper
 from dualfoot_ros.nodes.inputs.unit_check import WINDOW, UnitCheck
 from dualfoot_ros.nodes.results.fusion_report import FusionReport
 from dualfoot_ros.nodes.ros import qos
-from dualfoot_ros.nodes.ros.diagnostics import Beginnings
+from dualfoot_ros.nodes.ros.diagnostics import FindingMemory
 from dualfoot_ros.nodes.ros.status import Status
 from dualfoot_ros.nodes.ros.watched_input import InputMonitor, WatchedInput
 from dualfoot_ros.settings import InputConfig
@@ -101,7 +101,7 @@ class Stage:
 
     def __init__(self):
         self.now_s, self.outcome, self.texts = 0.0, [], []
-        self._beginnings = Beginnings()
+        self._memory = FindingMemory()
         time.monotonic = lambda: self.now_s
 
     def report(self, *describers, graph=None):
@@ -110,7 +110,7 @@ class Stage:
             status = Status()
             for describe in describers:
                 describe(status)
-            begun = self._beginnings.select(status.findings, self.now_s)
+            begun = self._memory.update(status.findings, self.now_s).begun
             findings = [(f.kind, f.about, f.severity) for f in status.findings]
             lines = graph.log.lines if graph else []
             self.outcome.append(

@@ -24,6 +24,36 @@ def test_a_signal_ends_a_node_with_code_0_and_without_traceback(program, node, n
     assert "Traceback" not in running.output
 
 
+ENTRY = """
+import sys
+from dualfoot_ros.nodes.entry import {node}
+print("on", flush=True)
+sys.exit({node}())
+"""
+
+
+@pytest.mark.parametrize(
+    ("node", "number", "cpu_s"),
+    [
+        ("fusion", signal.SIGINT, 0.0),
+        ("time_sync", signal.SIGTERM, 0.1),
+        ("bringup", signal.SIGTERM, 0.3),
+        ("imu_adapter", signal.SIGINT, 0.7),
+    ],
+)
+def test_a_signal_in_the_midst_of_the_start_ends_an_executable_as_later(
+    session, node, number, cpu_s
+):
+    """Moments are told by the CPU time since its first line: a busy machine hits the same one."""
+    running = session("-c", ENTRY.format(node=node))
+    assert running.until(lambda s: "on" in s.said(), "on")
+    begun_s = running.cpu_s()
+    running.until(lambda s: s.cpu_s() >= begun_s + cpu_s, "some CPU time")
+    running.send(number)
+    ended = running.end()
+    assert ended.code == 0 and "Traceback" not in ended.error
+
+
 def test_an_impatient_ctrl_c_is_no_traceback_either(program):
     running = program("fusion")
     running.wait_for("configuration:")

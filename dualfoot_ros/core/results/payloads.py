@@ -58,17 +58,23 @@ NO_DETAILS = Details()
 class Levelled:
     """What a track starts from: gyro bias (rad/s) and specific force norm (m/s^2) by foot.
 
-    ``kind`` is the name of a `StartKind`, ``bias_std`` the standard deviation of either bias.
+    ``kind`` is the name of a `StartKind`, ``bias_std`` the standard deviation of either bias,
+    ``rate_hz`` the rate of the samples that is used from there on.
     """
 
     kind: str
     gyro_bias: Mapping[str, list[float]]
     gravity: Mapping[str, float]
     bias_std: float
+    rate_hz: float
 
     def to_dict(self) -> dict[str, Any]:
         """Return one value a foot and quantity."""
-        plain: dict[str, Any] = {"start": self.kind, "gyro_bias_std": self.bias_std}
+        plain: dict[str, Any] = {
+            "start": self.kind,
+            "gyro_bias_std": self.bias_std,
+            "rate": self.rate_hz,
+        }
         for foot, bias in self.gyro_bias.items():
             plain[f"{foot}_gyro_bias"] = bias
             plain[f"{foot}_gravity"] = self.gravity[foot]

@@ -2,6 +2,7 @@
 
 from .finding import Finding, Key, Severity
 from .finding_kinds import FindingKind
+from .rate_findings import find_other_rate, rate_findings, seen_rate_hz
 from .recording_findings import check_usable, findings_of, qualities_of, require_usable
 from .start_findings import start_findings
 from .stream_findings import STUCK_SHARE
@@ -17,9 +18,12 @@ __all__ = [
     "Severity",
     "check_usable",
     "coupled_findings",
+    "find_other_rate",
     "findings_of",
     "qualities_of",
+    "rate_findings",
     "require_usable",
+    "seen_rate_hz",
     "start_findings",
     "walk_findings",
 ]

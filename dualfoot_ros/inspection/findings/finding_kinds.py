@@ -12,15 +12,17 @@ class FindingKind(StrEnum):
     ----------
     logged_once : whether a node logs it once when it begins; the others stand in the report only,
         or are logged by whoever finds them
+    momentary : whether it is about a moment, so that a node does not log that it is over
     """
 
     logged_once: bool
+    momentary: bool
 
-    def __new__(cls, name: str, logged_once: bool = False) -> FindingKind:
+    def __new__(cls, name: str, logged_once: bool = False, momentary: bool = False) -> FindingKind:
         """Make a member whose value is ``name``."""
         member = str.__new__(cls, name)
         member._value_ = name
-        member.logged_once = logged_once
+        member.logged_once, member.momentary = logged_once, momentary
         return member
 
     # samples of a foot
@@ -45,6 +47,7 @@ class FindingKind(StrEnum):
     LOW_RATE = "low_rate", True
     SAME_SAMPLES = "same_samples", True
     WRONG_RATE = "wrong_rate", True
+    RATE_USED = "rate_used", True
 
     # stamps and clocks
     BEGINS_ANEW = "begins_anew"
@@ -61,7 +64,7 @@ class FindingKind(StrEnum):
     STAMPS_NOT_SHARED = "stamps_not_shared"
     ZERO_STAMPS = "zero_stamps", True
     EQUAL_STAMPS = "equal_stamps", True
-    CLOCK_SET = "clock_set", True
+    CLOCK_SET = "clock_set", True, True
     NO_PAIRS = "no_pairs", True
     STALE_FOOT = "stale_foot", True
 

@@ -101,7 +101,8 @@ def find_jitter(foot: str, quality: Quality) -> Iterator[Finding]:
             f"{foot} foot: the stamps jitter by {1e3 * quality.jitter_s:.1f} ms where a sensor "
             f"samples every {1e3 / quality.rate_hz:.1f} ms, so they seem to tell when samples "
             "arrived",
-            f"{EVEN_THEM}; live stamp them with the time of the device (stamp: device)",
+            f"{EVEN_THEM}; live stamp them with the time of the device (stamp: device), or evenly "
+            "(stamp: even) where it sends none",
             foot,
         )
 

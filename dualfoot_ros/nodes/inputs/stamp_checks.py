@@ -16,7 +16,7 @@ LEAST_JITTER_NS = 2_000_000
 EQUAL_SHARE = 0.05
 ARRIVALS = (
     "stamp the samples where they are taken, or set stamp of imu_adapter (stamping.{foot} here) "
-    "to device"
+    "to device, or to even where the device sends no time"
 )
 
 

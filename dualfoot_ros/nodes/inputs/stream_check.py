@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from ...core import METHODS, DualFootTracker, FloatArray
 from ...inspection import Finding, Stretch, stretch_findings
+from ...timing import Aligner
 from ..ros.status import Status
 
 EVERY_NS = 4_000_000_000  # of data, between inspections of a stream that is new
@@ -22,9 +23,10 @@ class StreamCheck:
     inspects them, so that no sample waits; the report after that has its findings.
     """
 
-    def __init__(self, tracker: DualFootTracker) -> None:
-        """Inspect what ``tracker`` gets, and track as it does."""
-        self._tracker = tracker
+    def __init__(self, tracker: DualFootTracker, aligner: Aligner) -> None:
+        """Inspect what ``tracker`` gets from ``aligner``, and track as it does."""
+        self._tracker, self._aligner = tracker, aligner
+        self._clocks_set = aligner.clocks_set
         self._stretch = Stretch()
         self._worker: threading.Thread | None = None
         self._checked_ns = 0
@@ -33,7 +35,7 @@ class StreamCheck:
 
     def add(self, foot: str, stamp_ns: int, values: FloatArray) -> None:
         """Take specific force and angular rate (6,) of one sample."""
-        self._stretch.add(foot, stamp_ns, values)
+        self._stretch.add(foot, stamp_ns + self._aligner.shift_ns(foot), values)
 
     def reset(self) -> None:
         """Forget the samples."""
@@ -41,6 +43,9 @@ class StreamCheck:
 
     def describe(self, status: Status) -> None:
         """Add the findings of the last inspections; begin another one when it is due."""
+        if self._aligner.clocks_set != self._clocks_set:
+            self._clocks_set = self._aligner.clocks_set
+            self.reset()  # stamps from before do not belong to those since
         known = {finding.key for finding in status.findings}
         for finding in self._findings():
             if finding.key not in known:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+from collections import deque
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -9,13 +11,20 @@ from rclpy.clock import Clock
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
 from ...core import FEET, DualFootTracker, Event, EventKind, Refusal, Update, refusal_of
-from ...inspection import Finding, FindingKind, Severity, start_findings
+from ...inspection import Finding, FindingKind, Severity, find_other_rate, start_findings
 from ...timing import Aligner
-from ..ros.diagnostics import Rates
+from ..ros.diagnostics import OVER_S, Rates
 from ..ros.status import Described, Status
 from . import event_messages
 
-LOGGED = (EventKind.ALIGNED, EventKind.HEADING, EventKind.RESET)
+LOGGED = (
+    EventKind.ALIGNED,
+    EventKind.HEADING,
+    EventKind.RESET,
+    EventKind.MISSING,
+    EventKind.JOINED,
+)
+RATE_OVER = 500  # samples over which the rate that comes is seen
 NO_STANCE_NS = 2_000_000_000
 NOT_SHARED = 0.5  # of the pairs are interpolated; of lost samples that are filled it is less
 MOST_LAG_S = 60.0  # beyond it, the stamps are of another clock
@@ -43,7 +52,7 @@ class FusionReport:
         self._tracker, self._aligner, self._parts = tracker, aligner, parts
         self._clock, self._logger, self._external = clock, logger, external
         self._aligner_rates, self._tracker_rates = Rates(), Rates()
-        self._logged: set[Refusal] = set()
+        self._logged: dict[Refusal, float] = {}  # when pairs were refused for it last, s
         self._nis = float("nan")
         self._correction_m = 0.0
         self._phase = "aligning"
@@ -51,6 +60,8 @@ class FusionReport:
         self._stance = dict.fromkeys(FEET, False)
         self._stamp_ns = 0
         self._last_stance_ns = dict.fromkeys(FEET, 0)
+        self._rate_hz: float | None = None  # that is used
+        self._stamps_ns: deque[int] = deque(maxlen=RATE_OVER)
 
     def add(self, update: Update) -> None:
         """Take one update."""
@@ -59,6 +70,8 @@ class FusionReport:
         for event in update.announced:
             self._add_event(event)
         self._phase, self._stamp_ns = update.phase, update.stamp_ns
+        if update.row is not None:
+            self._stamps_ns.append(update.stamp_ns)
         zupts = {e.foot: e.nis for e in update.events if e.kind is EventKind.ZUPT}
         for foot in FEET:
             self._add_stance(foot, update, zupts.get(foot))
@@ -75,17 +88,26 @@ class FusionReport:
 
     def _log_refusal(self, reason: Refusal) -> None:
         if reason not in self._logged:
-            self._logged.add(reason)
             self._logger.warning(
                 f"pairs are refused: {reason.words} (further ones are only counted, as "
                 f"'tracker {reason}' in /diagnostics)"
             )
+        self._logged[reason] = time.monotonic()
+
+    def _log_refusals_over(self) -> None:
+        now_s = time.monotonic()
+        for reason, last_s in list(self._logged.items()):
+            if now_s - last_s >= OVER_S:
+                del self._logged[reason]
+                self._logger.info(f"over: pairs are refused: {reason.words}")
 
     def _add_event(self, event: Event) -> None:
         if event.kind in LOGGED:
             self._logger.info(event_messages.summarise(event))
         if event.kind is EventKind.ALIGNED:
             self._start = next(start_findings([event]), None)
+            self._rate_hz = float(event.detail["rate"])
+            self._stamps_ns.clear()
             if self._start is not None:
                 self._logger.warning(self._start.sentence)
         elif event.kind is EventKind.STOOD:
@@ -95,6 +117,7 @@ class FusionReport:
 
     def collect(self, status: Status) -> None:
         """Fill in a status."""
+        self._log_refusals_over()
         for part in self._parts:
             part.describe(status)
         self._describe_tracker(status)
@@ -116,6 +139,11 @@ class FusionReport:
             status.values |= {"spacing of the feet (m)": spacing, "spacing std (m)": std}
         if self._start is not None:
             status.note(self._start)
+        if self._rate_hz is not None:
+            status.values["rate used (Hz)"] = self._rate_hz
+            stamps_ns = np.fromiter(self._stamps_ns, dtype=np.int64)
+            for finding in find_other_rate(self._rate_hz, stamps_ns):
+                status.note(finding)
         if tracker.phase == "aligning" and tracker.complaint:
             text = f"aligning: stand still ({tracker.complaint})"
             status.note(Finding(FindingKind.ALIGNING, Severity.WARNING, text))

@@ -57,11 +57,14 @@ class Outputs:
         self.published = self.messages = 0
 
     def publish(self, update: Update, present: tuple[bool, bool] = (True, True)) -> None:
-        """Publish the estimates and events of ``update``, of the feet that are ``present``."""
-        if update.announced:
-            self._events.publish(event_messages.to_message(update.announced, update.stamp_ns))
-            if any(event.kind is EventKind.RESET for event in update.announced):
-                self.clear()
+        """Publish the estimates and events of ``update``, of the feet that are ``present``.
+
+        What was estimated late, where a track starts without a stand, has its part in the events,
+        the steps and the paths; odometry that is seconds old is of no use.
+        """
+        for before in update.earlier:
+            self._catch_up(before)
+        self._announce(update)
         if update.left is None:
             return
         variance = self._rate_variance(update.stamp_ns)
@@ -73,6 +76,22 @@ class Outputs:
             self._tf.publish([self.person.message, *(self._feet[foot] for foot in feet)])
         self.published += 1
         self.messages += 1 + len(feet)
+
+    def _announce(self, update: Update) -> None:
+        """Publish the events of an update, if it has some."""
+        if update.announced:
+            self._events.publish(event_messages.to_message(update.announced, update.stamp_ns))
+            if any(event.kind is EventKind.RESET for event in update.announced):
+                self.clear()
+
+    def _catch_up(self, update: Update) -> None:
+        """Take an update whose time is past."""
+        self._announce(update)
+        for foot, there in zip(FEET, update.present, strict=True):
+            estimate = update.left if foot == "left" else update.right
+            if there and estimate is not None:
+                self._paths[foot].add(update.stamp_ns, estimate, update.announced)
+        self.person.catch_up(update)
 
     def _publish_foot(self, foot: str, update: Update, rate_variance: float) -> None:
         estimate = update.left if foot == "left" else update.right

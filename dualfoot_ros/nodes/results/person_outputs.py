@@ -12,6 +12,7 @@ from ...core import (
     EventKind,
     PersonEstimate,
     PersonTracker,
+    SmoothedPerson,
     Smoother,
     StepTracker,
     Trust,
@@ -69,15 +70,25 @@ class PersonOutputs:
             return
         fill_person(self.message, person)
         self._exact.publish(self.message)
-        turns = [e.turn for e in update.announced if e.kind is EventKind.HEADING]
-        smoothed = self._smoother.add(person, moved=bool(turns))
+        smoothed = self._follow(update, person)
         if smoothed is not None:
             fill_smoothed(self._smoothed, smoothed)
             self._smooth.publish(self._smoothed)
+
+    def catch_up(self, update: Update) -> None:
+        """Take an update whose time is past: into the steps and the path, without odometry."""
+        person = self._person.add(update)
+        if person is not None:
+            self._follow(update, person)
+
+    def _follow(self, update: Update, person: PersonEstimate) -> SmoothedPerson | None:
+        """Take the person into all that remembers it; return the smoothed one if it is due."""
+        turns = [e.turn for e in update.announced if e.kind is EventKind.HEADING]
         if any(turn.joint for turn in turns):
             self.trust.clear()
         self.trust.add(person)
         self._publish_steps(update, person)
+        return self._smoother.add(person, moved=bool(turns))
 
     def _publish_steps(self, update: Update, person: PersonEstimate) -> None:
         """Publish the steps that are sure by now, and what shows them."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.clock import Clock, ClockType
@@ -31,14 +31,17 @@ class Reporter:
         period_s = group(ReportConfig, values, "reports.").period
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(period_s, self.report, clock=steady)
-        self._beginnings = Beginnings()
+        self._memory = FindingMemory()
 
     def report(self) -> None:
-        """Publish one report now; log the findings that begin."""
+        """Publish one report now; log the findings that begin, and those that are over."""
         status = Status()
         self._collect(status)
-        for finding in self._beginnings.select(status.findings, time.monotonic()):
+        changes = self._memory.update(status.findings, time.monotonic())
+        for finding in changes.begun:
             self._node.get_logger().warning(finding.sentence)
+        for finding in changes.over:
+            self._node.get_logger().info(f"over: {finding.text}")
         message = DiagnosticArray()
         message.header.stamp = self._node.get_clock().now().to_msg()
         name = self._node.get_fully_qualified_name().lstrip("/")
@@ -46,27 +49,40 @@ class Reporter:
         self._publisher.publish(message)
 
 
-class Beginnings:
+class Changes(NamedTuple):
+    """Findings to log: those that were not there before or have become worse, and those over."""
+
+    begun: list[Finding]
+    over: list[Finding]
+
+
+class FindingMemory:
     """Memory of the findings of kinds to be logged once.
 
     A finding that comes and goes is over only when it has stayed away for ``OVER_S``.
     """
 
     def __init__(self) -> None:
-        self._known: dict[Key, tuple[int, float]] = {}  # rank, when it was last there
+        self._known: dict[Key, tuple[Finding, float]] = {}  # at its worst; when it was last there
 
-    def select(self, findings: Iterable[Finding], now_s: float) -> list[Finding]:
-        """Return the findings to log: those that were not there before or have become worse."""
-        self._known = {k: v for k, v in self._known.items() if now_s - v[1] < OVER_S}
-        begun = []
-        for finding in findings:
-            if not finding.kind.logged_once:
-                continue
-            before, _ = self._known.get(finding.key, (0, now_s))
-            if finding.severity.rank > before:
+    def update(self, findings: Iterable[Finding], now_s: float) -> Changes:
+        """Take the findings of a report; return what is to be logged."""
+        logged = [finding for finding in findings if finding.kind.logged_once]
+        begun, there = [], {finding.key for finding in logged}
+        over = [
+            found
+            for key, (found, last_s) in self._known.items()
+            if key not in there and now_s - last_s >= OVER_S
+        ]
+        for finding in over:
+            del self._known[finding.key]
+        for finding in logged:
+            known, _ = self._known.get(finding.key, (None, now_s))
+            if known is None or finding.severity.rank > known.severity.rank:
                 begun.append(finding)
-            self._known[finding.key] = max(finding.severity.rank, before), now_s
-        return begun
+                known = finding
+            self._known[finding.key] = known, now_s
+        return Changes(begun, [finding for finding in over if not finding.kind.momentary])
 
 
 class Rates:

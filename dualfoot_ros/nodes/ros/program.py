@@ -96,11 +96,16 @@ def started(argv: Sequence[str]) -> Iterator[None]:
     DualFootError
         When ROS cannot read its arguments or parameter files.
     """
-    # rclpy ends the context at SIGINT; a KeyboardInterrupt as well could come anywhere, even in a
-    # callback of the import machinery, which can only print it.
-    signal.signal(signal.SIGINT, lambda *_: None)
+    # rclpy ends the context at a signal; a KeyboardInterrupt as well could come anywhere, even in
+    # a callback of the import machinery, which can only print it.  What comes before rclpy listens
+    # is remembered.
+    came: list[int] = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda number, _: came.append(number))
     with _ros_arguments():
         rclpy.init(args=["", *argv])
+    if came:
+        rclpy.try_shutdown()  # as rclpy does it at a signal from here on
     try:
         yield
     except Exception:

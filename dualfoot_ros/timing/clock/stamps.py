@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from ...core import FEET, Parameters, parameter
 from .clock_config import DeviceClockConfig
 from .device_clock import DeviceClock
+from .even_clock import EvenClock
 from .state import ClockState
 
-POLICIES = ("header", "device", "arrival")
+POLICIES = ("header", "device", "arrival", "even")
 
 
 @dataclass(frozen=True)
@@ -19,7 +20,8 @@ class StampConfig(Parameters):
 
     ``header`` takes them as they are; ``device`` takes them as time of the device's own clock and
     follows that on the host's; ``arrival`` takes the time the sample arrived, which is good for
-    links without bursts only.
+    links without bursts only; ``even`` takes the jitter off headers that are times of arrival (or
+    off the arrivals, where they are zero), for a sensor that samples regularly.
     """
 
     left: str = parameter("header", "stamps of the left foot", choices=POLICIES)
@@ -60,20 +62,22 @@ class Stamps:
         self.config = config or StampConfig()
         one = DeviceClock(model)
         shared = self.config.agreement == "shared"
-        self.clocks: Mapping[str, DeviceClock] = {
-            foot: one if shared else DeviceClock(model)
+        self.clocks: Mapping[str, DeviceClock | EvenClock] = {
+            foot: EvenClock(model)
+            if self.config.policy(foot) == "even"
+            else (one if shared else DeviceClock(model))
             for foot in FEET
-            if self.config.policy(foot) == "device"
+            if self.config.policy(foot) in ("device", "even")
         }
 
     def stamp(self, foot: str, header_ns: int, arrival_ns: int) -> int | None:
         """Return the stamp in ns of one sample; None: its clock says it is not to be used.
 
-        With the policy ``device`` that is so for all samples of the first seconds: see
-        :meth:`settling`.
+        With the policies ``device`` and ``even`` that is so for all samples of the first seconds:
+        see :meth:`settling`.
         """
         policy = self.config.policy(foot)
-        if policy == "device":
+        if policy in ("device", "even"):
             found = self.clocks[foot].update(header_ns, arrival_ns)
         else:
             found = header_ns if policy == "header" else arrival_ns

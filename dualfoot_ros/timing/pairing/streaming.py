@@ -70,6 +70,15 @@ class Aligner:
         jumps = {f"{foot}_clock_set": n for foot, n in self._jumps.jumps.items()}
         return feet | jumps | self._outcomes
 
+    def shift_ns(self, foot: str) -> int:
+        """Return what is added to the stamps of a foot, as its clock was set, ns."""
+        return self._jumps.shift_ns[foot]
+
+    @property
+    def clocks_set(self) -> int:
+        """How often the clock of a foot was set, or the stamps of both went back."""
+        return sum(self._jumps.jumps.values()) + self._outcomes["restarts"]
+
     def behind_ns(self, foot: str) -> int:
         """Return how much more than usual the newest stamp of a foot is behind the other's."""
         own, other = self._buffers[foot], self._buffers[_other(foot)]

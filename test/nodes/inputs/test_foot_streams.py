@@ -69,6 +69,24 @@ def test_samples_are_read_with_the_stamp_that_they_are_paired_by(bench):
     assert [pair.stamp_ns for pair in feet.pairs] == [10**9]
 
 
+def test_headers_that_are_times_of_arrival_are_evened_out_where_that_is_asked_for(bench):
+    """What jitters is said with the figure; evened out, nothing is left to say."""
+    late = np.random.default_rng(0).uniform(0, 12e6, (2, 1500)).astype(np.int64)
+    found = {}
+    for policy in ("header", "even"):
+        feet = Bench(bench, StampConfig(left=policy, right=policy))
+        for k in range(1500):
+            for foot, delay in zip(FEET, late[:, k].tolist(), strict=True):
+                feet.feed(foot, 10**18 + k * STEP_NS + delay)
+        steps = np.diff([pair.stamp_ns for pair in feet.pairs[-500:]])
+        found[policy] = list(feet.status().of_kind(FindingKind.JITTER)), np.std(steps)
+    said, spread_ns = found["header"]
+    assert {finding.about for finding in said} == set(FEET) and spread_ns > 2e6
+    assert "ms, as times of arrival are" in said[0].text and "to even" in said[0].remedy
+    said, spread_ns = found["even"]
+    assert said == [] and spread_ns < 3e5
+
+
 def test_a_sample_without_a_stamp_is_neither_read_nor_paired(feet):
     feet.feed("left", -1 << 30)
     assert feet.read == [] and feet.streams.stamper.counters["not_stamped"] == 1

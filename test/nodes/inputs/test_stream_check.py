@@ -9,6 +9,7 @@ from dualfoot_ros.core import FEET, TrackerConfig
 from dualfoot_ros.nodes.inputs.stream_check import StreamCheck
 from dualfoot_ros.nodes.ros.status import Status
 from dualfoot_ros.simulation import WalkConfig, simulate
+from dualfoot_ros.timing import Aligner
 
 STANDING_S = 5.0
 WALKING_S = 10.0
@@ -29,7 +30,7 @@ def walk():
 def run(walk, seconds, change=lambda foot, values: values):
     """Feed the first ``seconds`` of a walk, with a report every second; return what is told."""
     tracker = SimpleNamespace(config=TrackerConfig(), engine="compiled")
-    check = StreamCheck(tracker)
+    check = StreamCheck(tracker, Aligner())
     stamps = {foot: stamp_ns for foot, (stamp_ns, _) in walk.items()}
     begin = int(stamps["left"][0])
     last = dict.fromkeys(FEET, 0)
@@ -49,6 +50,26 @@ def run(walk, seconds, change=lambda foot, values: values):
 
 def test_nothing_is_told_of_a_good_walk(walk):
     assert run(walk, 70.0) == set()
+
+
+@pytest.mark.parametrize("feet", [("right",), FEET])
+def test_a_clock_that_is_set_makes_no_fault_of_a_good_walk(walk, feet):
+    aligner = Aligner()
+    check = StreamCheck(SimpleNamespace(config=TrackerConfig(), engine="compiled"), aligner)
+    found = set()
+    for k in range(40 * 60):
+        for foot in FEET:
+            stamp_ns, values = (column[k] for column in walk[foot])
+            if foot in feet and k > 15 * 60:
+                stamp_ns = stamp_ns + 3600 * 10**9
+            check.add(foot, int(stamp_ns), values)
+            aligner.push(foot, int(stamp_ns), values)
+        if k % 60 == 59:
+            status = Status()
+            check.describe(status)
+            check.wait()
+            found |= {finding.kind for finding in status.findings}
+    assert found == set()
 
 
 def times(factor):
@@ -83,7 +104,7 @@ def test_exchanged_feet_are_told_after_a_walk_with_turns_both_ways(walk):
 
 
 def test_a_reset_forgets_the_samples(walk):
-    check = StreamCheck(SimpleNamespace(config=TrackerConfig(), engine="compiled"))
+    check = StreamCheck(SimpleNamespace(config=TrackerConfig(), engine="compiled"), Aligner())
     stamp_ns, values = walk["left"]
     for k in range(600):
         check.add("left", int(stamp_ns[k]), values[0])

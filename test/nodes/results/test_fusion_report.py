@@ -8,6 +8,7 @@ import pytest
 from dualfoot_ros.core import DualFootTracker, ImuPair, Refusal, TrackerConfig, Update
 from dualfoot_ros.inspection import Finding, FindingKind, Severity
 from dualfoot_ros.nodes.results.fusion_report import FusionReport
+from dualfoot_ros.nodes.ros.diagnostics import OVER_S
 from dualfoot_ros.nodes.ros.status import OK, WARN, Status
 from dualfoot_ros.timing import Aligner
 
@@ -124,9 +125,37 @@ def test_values_tell_phase_and_stances_once_the_feet_have_stood(fusion):
     assert any("aligned of both" in line for line in fusion.log.infos)
 
 
+def test_a_rate_that_is_not_that_of_the_start_is_a_warning_with_both_figures(fusion):
+    for k in range(300):
+        fusion.track(10**12 + k * STEP_NS, PAIR + 1e-3 * np.sin(k + np.arange(12)))
+    assert fusion.status().values["rate used (Hz)"] == pytest.approx(100.0)
+    assert FindingKind.RATE_USED not in fusion.kinds()
+    start_ns = 10**12 + 300 * STEP_NS
+    for k in range(600):
+        fusion.track(start_ns + k * STEP_NS // 2, PAIR + 1e-3 * np.sin(k + np.arange(12)))
+    (finding,) = fusion.status().of_kind(FindingKind.RATE_USED)
+    assert "100.0 Hz" in finding.text and "200.0 Hz" in finding.text
+
+
 def test_the_lag_behind_another_clock_is_not_given_as_a_number(fusion):
     fusion.track(10**12 - 2 * 10**9)
     assert fusion.status().values["lag (s)"] == pytest.approx(2.0)
     old = Bench()
     old.track(10**12 - 3600 * 10**9)
     assert "another clock" in old.status().values["lag (s)"]
+
+
+def test_pairs_that_are_refused_are_logged_once_and_once_when_it_is_over(fusion, clock):
+    fusion.track(STEP_NS)
+    for _ in range(5):
+        fusion.track(STEP_NS)  # the same stamp again
+        clock.move_on(1.0)
+        fusion.status()
+    assert len(fusion.log.warnings) == 1 and not fusion.log.infos
+    clock.move_on(OVER_S)
+    fusion.status()
+    fusion.status()
+    words = Refusal.DUPLICATE.words
+    assert fusion.log.infos == [f"over: pairs are refused: {words}"]
+    fusion.track(STEP_NS)
+    assert len(fusion.log.warnings) == 2

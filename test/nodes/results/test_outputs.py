@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
+from nav_msgs.msg import Path as PathMessage
 
-from dualfoot_ros.core import DualFootTracker, ImuPair
+from dualfoot_ros.core import DualFootTracker, ImuPair, TrackerConfig, Update
 from dualfoot_ros.nodes.results.outputs import Outputs
 from dualfoot_ros.nodes.ros import qos
 from dualfoot_ros.settings import FrameConfig, PathConfig, PersonConfig
@@ -13,11 +15,10 @@ from dualfoot_ros.simulation import WalkConfig, simulate
 FEET = ("left", "right")
 
 
-@pytest.fixture(scope="module")
-def updates():
-    """Return the updates of the start of a walk that have an estimate."""
+def tracked(first: int, count: int, **options: float) -> list[Update]:
+    """Return the updates of a part of a walk that have an estimate."""
     made = simulate(WalkConfig(route="straight", rate=60.0, standing=3.0), seed=1)
-    tracker = DualFootTracker(engine="interpreted")
+    tracker = DualFootTracker(TrackerConfig.from_mapping(options), engine="interpreted")
     rows = np.hstack(
         [
             each
@@ -25,9 +26,16 @@ def updates():
             for each in (foot.specific_force, foot.angular_rate)
         ]
     )
-    pairs = zip(made.left.stamp_ns[:400].tolist(), rows, strict=False)
+    part = slice(first, first + count)
+    pairs = zip(made.left.stamp_ns[part].tolist(), rows[part], strict=True)
     found = [tracker.add(ImuPair(stamp_ns, values)) for stamp_ns, values in pairs]
     return [update for update in found if update.row is not None]
+
+
+@pytest.fixture(scope="module")
+def updates():
+    """Return the updates of the start of a walk that have an estimate."""
+    return tracked(0, 400)
 
 
 @pytest.mark.parametrize(
@@ -47,3 +55,29 @@ def test_odometry_is_that_of_the_person_and_of_the_feet_that_are_there(
     bench.until(lambda: len(got["person"]) == 5, "odometry of the person")
     bench.until(lambda: all(len(got[foot]) == 5 for foot in expected), "odometry of the feet")
     assert outputs.messages == sum(map(len, got.values())) == 5 * (1 + len(expected))
+
+
+def test_the_way_before_a_start_without_a_stand_is_in_the_paths_and_events_but_no_odometry(bench):
+    """Its estimates come seconds late, all at once: too late to steer by, not to be remembered."""
+    node, got = bench.plain(), {"odometry": [], "path": [], "events": []}
+    for topic, kind, found, profile in (
+        ("left/odometry", Odometry, got["odometry"], qos.result()),
+        ("left/path", PathMessage, got["path"], qos.latched()),
+        ("~/events", DiagnosticArray, got["events"], qos.latched(200)),
+    ):
+        node.create_subscription(kind, topic, found.append, profile)
+    outputs = Outputs(node, FrameConfig(), PathConfig(), PersonConfig(), 1e-3, tf=False)
+    first = tracked(300, 300, **{"alignment.patience": 4.0})[0]
+    late = len(first.earlier)
+    assert late > 60
+    outputs.publish(first)
+    bench.until(lambda: got["odometry"] and got["path"], "odometry and path")
+    events = sum(bool(update.announced) for update in (*first.earlier, first))
+    bench.until(lambda: len(got["events"]) == events, "events")
+    names = [status.name for message in got["events"] for status in message.status]
+    assert names[0] == "aligned" and "stance_end" in names
+    assert len(got["odometry"]) == 1
+    (path,) = got["path"]
+    stamps = [pose.header.stamp.sec + 1e-9 * pose.header.stamp.nanosec for pose in path.poses]
+    assert stamps == sorted(set(stamps)) and stamps[0] < stamps[-1] - 0.5
+    assert outputs.messages == 3

@@ -1,5 +1,3 @@
-import time
-
 import pytest
 import rclpy
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -158,24 +156,71 @@ def test_samples_that_a_full_queue_drops_are_counted(bench):
     assert each.lost == 95
 
 
-def test_what_has_waited_too_long_is_dropped_down_to_the_newest_and_said(bench):
-    taken, node = [], bench.plain("listener")
-    config = InputConfig(latency=60.0)
-    each = WatchedInput(node, Imu, "imu", taken.append, qos.sensor(10), latency_s=60_000.0)
-    watch = InputMonitor(node, [each], config)
-    for waited_s in (50_000, 61_000, 30_000, 7_000, 5_000, 50_000):
-        arrived_ns = time.time_ns() - waited_s * 10**9
-        each._receive(imu(waited_s), {"received_timestamp": arrived_ns})
-    assert [message.header.stamp.nanosec for message in taken] == [50_000, 5_000, 50_000]
-    assert (each.received, each.dropped) == (6, 3)
-    status = Status()
-    watch.describe(status)
-    (finding,) = status.of_kind(FindingKind.FALLING_BEHIND)
-    assert finding.about == "/imu" and finding.text.startswith("3 samples on '/imu' waited")
-    assert status.values["dropped /imu"] == 3
-    status = Status()
-    watch.describe(status)
-    assert not list(status.of_kind(FindingKind.FALLING_BEHIND))
+class Queue:
+    """A queue of a process that gets a sample every 10 ms, on the clock of the test.
+
+    ``work_s`` is what it spends on one; ``waited_s`` how old each one was that it has taken.
+    """
+
+    def __init__(self, bench, clock, latency_s):
+        self.waited_s, self.work_s, self._clock = [], 0.001, clock
+        self._waiting, self._due_ns, node = [], clock.time_ns(), bench.plain("listener")
+        self.input = WatchedInput(
+            node, Imu, "imu", self._take, qos.sensor(10), latency_s=latency_s
+        )
+        config = InputConfig(latency=latency_s)
+        self.monitor = InputMonitor(node, [self.input], config)
+
+    def _take(self, message):
+        arrived_ns = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
+        self.waited_s.append((self._clock.time_ns() - arrived_ns) * 1e-9)
+        self._clock.move_on(self.work_s)
+
+    def run(self, seconds):
+        """Let samples come for some seconds, and take them as fast as the work allows."""
+        end_ns = self._clock.time_ns() + round(1e9 * seconds)
+        while self._clock.time_ns() < end_ns:
+            while self._due_ns <= self._clock.time_ns():
+                self._waiting.append(self._due_ns)
+                self._due_ns += 10_000_000
+            if self._waiting:
+                arrived_ns = self._waiting.pop(0)
+                self.input._receive(imu(arrived_ns), {"received_timestamp": arrived_ns})
+            else:
+                self._clock.move_on(0.001)
+
+    def findings(self):
+        status = Status()
+        self.monitor.describe(status)
+        assert status.values["dropped /imu"] == self.input.dropped
+        return list(status.of_kind(FindingKind.FALLING_BEHIND))
+
+
+def test_a_process_that_is_too_slow_for_its_samples_drops_to_the_newest_and_says_so(bench, clock):
+    queue = Queue(bench, clock, latency_s=2.0)
+    queue.run(5.0)
+    assert max(queue.waited_s) < 0.02 and not queue.findings()
+    queue.work_s = 0.03
+    queue.run(60.0)
+    assert 1.9 < max(queue.waited_s) <= 2.0  # it waits for better times so long, and no longer
+    taken, dropped = len(queue.waited_s), queue.input.dropped
+    assert taken + dropped == queue.input.received
+    assert taken >= 0.9 * 60.0 / 0.03  # what it can do, it does
+    (finding,) = queue.findings()
+    assert finding.about == "/imu"
+    assert finding.text.startswith(f"{dropped} samples on '/imu' waited")
+
+
+def test_a_process_that_was_held_up_is_up_to_date_at_once_and_drops_nothing_more(bench, clock):
+    queue = Queue(bench, clock, latency_s=2.0)
+    queue.run(2.0)
+    clock.move_on(5.0)
+    queue.run(2.0)
+    assert max(queue.waited_s) < 0.25
+    assert 480 <= queue.input.dropped <= 500
+    assert queue.findings() and not queue.findings()
+    queue.run(10.0)
+    assert not queue.findings() and queue.waited_s[-1] < 0.02
 
 
 def test_without_a_time_of_arrival_nothing_is_dropped(bench):

@@ -144,6 +144,26 @@ def test_a_silent_foot_is_waited_for_once_and_then_the_other_goes_on_at_full_rat
     assert aligner.present == {"left": True, "right": True}
 
 
+@pytest.mark.parametrize("foot", FEET)
+@pytest.mark.parametrize("reference", FEET)
+def test_a_foot_that_is_silent_gives_the_pairs_of_the_whole_walk_without_its_values(
+    foot, reference
+):
+    """So what a silent foot costs is the same behind the aligner as in the tracker alone."""
+    stamps = 10**18 + 10 * MS * np.arange(900)
+    feet = dict(zip(FEET, (noisy(stamps, 1), noisy(stamps, 2)), strict=True))
+    feet = {f: ImuSeries(stamps, *np.nan_to_num((s.specific_force, s.angular_rate)))
+            for f, s in feet.items()}  # fmt: skip
+    whole = stack_pairs(*feet.values())
+    away = slice(200, 700)
+    column = 6 * FEET.index(foot)
+    whole[away, column : column + 6] = np.nan
+    feet[foot] = feet[foot][np.r_[:200, 700:900]]
+    _, pairs = stream(AlignerConfig(reference=reference), arrivals(**feet))
+    assert [pair.stamp_ns for pair in pairs] == stamps.tolist()
+    assert np.array_equal([pair.values for pair in pairs], whole, equal_nan=True)
+
+
 def test_a_foot_that_comes_back_as_late_as_its_link_is_waited_for_again():
     aligner = Aligner()
     late = 20  # samples

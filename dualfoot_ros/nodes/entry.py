@@ -1,0 +1,51 @@
+"""Entry points of the executables: a signal ends them also while Python imports the rest.
+
+ROS takes some seconds to import on a small machine, and ``ros2 launch`` or a terminal may end a
+node at any of them.  Nothing of ROS is imported before the signals can be answered.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import signal
+from types import FrameType
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+
+def bringup() -> int:
+    """Run all nodes in one process."""
+    return _run("bringup")
+
+
+def fusion() -> int:
+    """Run the node ``fusion``."""
+    return _run("fusion")
+
+
+def imu_adapter() -> int:
+    """Run the node ``imu_adapter``."""
+    return _run("imu_adapter")
+
+
+def replay() -> int:
+    """Run the node ``replay``."""
+    return _run("replay")
+
+
+def time_sync() -> int:
+    """Run the node ``time_sync``."""
+    return _run("time_sync")
+
+
+def _run(name: str) -> int:
+    for number in SIGNALS:
+        signal.signal(number, _leave)
+    code: int = importlib.import_module(f".{name}", __package__).main()
+    return code
+
+
+def _leave(number: int, frame: FrameType | None) -> None:
+    """End the process: nothing has been begun that is to be put in order."""
+    os._exit(0)

@@ -84,9 +84,11 @@ def test_headers_of_zero_are_replaced_by_the_log_times(tmp_path, walk, whole, du
     done = dualfoot("info", bag)
     assert done.returncode == 2
     assert "'dualfoot import BAG --stamps log -o NEW'" in done.stderr
-    done = dualfoot("import", bag, "--stamps", "index", "-o", "x", cwd=tmp_path)
-    assert done.returncode == 2
-    assert "take --stamps log" in done.stderr
+    for stamps in ("header", "index"):
+        done = dualfoot("import", bag, "--stamps", stamps, "-o", "x", cwd=tmp_path)
+        assert done.returncode == 2
+        assert "with --stamps log" in done.stderr
+        assert not (tmp_path / "x").exists()
     done = dualfoot("import", bag, "--stamps", "log", "-o", "even", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert "stamps: log times, evened out: left every 16.66" in done.stdout
@@ -162,3 +164,11 @@ def test_a_layout_of_a_table_is_refused_for_a_bag(tmp_path, dualfoot):
         assert done.returncode == 2
         assert f"{option[0]}" in done.stderr
         assert "does not apply to the format rosbag; it is for csv" in done.stderr
+
+
+def test_one_topic_for_both_feet_is_refused(tmp_path, walk, dualfoot):
+    bag = ros2_bag(tmp_path / "walk", topics_of(walk))
+    one = "/left/imu/data_raw"
+    done = dualfoot("import", bag, "--left-topic", one, "--right-topic", one, "-o", "x")
+    assert done.returncode == 2
+    assert "both feet hold the same samples" in done.stderr

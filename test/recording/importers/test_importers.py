@@ -294,10 +294,10 @@ def test_every_format_loads_by_its_name(tmp_path, pair):
         "dual-feet": ImportOptions((walk(tmp_path / "w.mat"),)),
         "xsens-dot": ImportOptions(left=pair[0], right=pair[1]),
     }
-    bag = write_bag(tmp_path / "bag", import_recording(sources["dual-feet"]))
+    bag = write_bag(tmp_path / "bag", import_recording(sources["xsens-dot"]))
     sources["rosbag"] = ImportOptions((bag,))
-    for foot in ("left", "right"):
-        (tmp_path / f"{foot}.ximu3").write_bytes(stream("ximu3", 20))
+    for first, foot in enumerate(("left", "right")):
+        (tmp_path / f"{foot}.ximu3").write_bytes(stream("ximu3", 20, first=first))
     sources["capture"] = ImportOptions(
         left=tmp_path / "left.ximu3", right=tmp_path / "right.ximu3"
     )

@@ -18,6 +18,7 @@ from .known_layouts import recognise
 from .raw_text import RawText, read_text
 from .table_layout import Layout
 
+RATE_KEYS = ("rate", "frequency", "fs", "frequenz")
 CLOCK = re.compile(r"(?:(\d+)[:])?(\d{1,2}):(\d{1,2}(?:[.,]\d+)?)")
 
 
@@ -61,6 +62,13 @@ class TableFile:
         """Return whether a column holds numbers that a float holds exactly enough."""
         cells = [row[place] for row in self.dialect.sample]
         return any(is_number(cell, self.dialect.decimal) for cell in cells) and not is_exact(cells)
+
+    def timed(self, place: int | None) -> BoolArray:
+        """Return which rows have a time in ``place``; all, where none has or it is no number."""
+        if place is None or not self.holds_numbers(place):
+            return np.asarray(True)
+        known = ~np.isnan(self.numbers([place]).numbers[:, 0])
+        return known if known.any() else np.asarray(True)
 
     def words(self, place: int) -> list[str]:
         """Return N cells as text."""
@@ -145,6 +153,16 @@ def header_facts(lines: Sequence[str], delimiter: str) -> dict[str, str]:
         if match:
             facts.setdefault(match[1], match[2])
     return facts
+
+
+def rate_in(facts: Mapping[str, str]) -> float | None:
+    """Return the sampling rate, in Hz, that the header tells, or None."""
+    for key, value in facts.items():
+        if any(re.search(rf"{word}\b", key, re.I) for word in RATE_KEYS):
+            match = re.match(r"\s*(\d+(?:\.\d+)?)\s*(?:hz|sps)?\s*$", value, re.I)
+            if match and float(match[1]) > 0.0:
+                return float(match[1])
+    return None
 
 
 def _from_dates(words: Sequence[str], path: Path, name: str) -> tuple[FloatArray, IntArray | None]:

@@ -214,8 +214,9 @@ def _repaired(data: bytes, dialect: Dialect) -> bytes:
     """Return the rows with EMPTY in empty cells, without rows of empty cells."""
     sign = re.escape(dialect.delimiter.encode())
     data = re.sub(_blank_lines(dialect), b"", data + b"\n").rstrip(b"\n")
-    word = rb'(?:"[ \t]*(?:%b)?[ \t]*"|(?:%b)?)' % (WORDS, WORDS)
-    cell = rb"(?m)(?:(?<=%b)|^)[ \t]*%b[ \t]*(?=%b|$)" % (sign, word, sign)
+    gap = rb" *" if dialect.delimiter == "\t" else rb"[ \t]*"
+    word = rb'(?:"%b(?:%b)?%b"|(?:%b)?)' % (gap, WORDS, gap, WORDS)
+    cell = rb"(?m)(?:(?<=%b)|^)%b%b%b(?=%b|$)" % (sign, gap, word, gap, sign)
     return re.sub(cell, repr(EMPTY).encode(), data)
 
 

@@ -99,6 +99,12 @@ def force_unit(path: Path, foot: str, told: Told, evidence: UnitEvidence) -> Ass
             f"{told.unit} to insist"
         )
     doubtful = not evidence.force_fits(FORCE_UNITS[told.unit])
+    if doubtful and evidence.quiet and told.origin is not Origin.OPTION:
+        raise RecordingError(
+            f"'{path}': the specific force should be in {told.unit} (by {told.origin}), but "
+            f"{reading}, which is gravity in no known unit; are these raw counts? Export "
+            f"calibrated values, or give --force-unit {told.unit} to insist"
+        )
     value = f"{told.unit} ({reading})"
     return Assumption(foot, WORDS["force"], value, told.origin, doubtful)
 

@@ -49,10 +49,11 @@ def test_rows_without_a_time_are_left_out_and_counted(tmp_path):
 
 @pytest.mark.parametrize("gap", ["", "null", "NaN", "-", "N/A"])
 @pytest.mark.parametrize("quote", ["", '"'])
-def test_empty_cells_may_be_quoted_words(tmp_path, gap, quote):
+@pytest.mark.parametrize("delimiter", [";", "\t"])
+def test_empty_cells_may_be_quoted_words(tmp_path, gap, quote, delimiter):
     cells = rows()
-    cells[7][3] = gap
-    found = read(write(tmp_path, cells, quote=quote))
+    cells[7][3] = cells[7][4] = gap
+    found = read(write(tmp_path, cells, delimiter=delimiter, quote=quote))
     good = found.specific_force[np.isfinite(found.specific_force).all(axis=1)]
     assert len(good) == len(FOOT) - 1
 
@@ -81,6 +82,13 @@ def test_a_unit_that_is_not_converted_is_refused_though_the_motion_fits_another(
     sentence = rf"column '{column}.*unit that is not known here; allowed is .*--(force|rate)-unit"
     with pytest.raises(RecordingError, match=sentence):
         read(write(tmp_path, rows(), names))
+
+
+def test_raw_counts_under_the_name_of_a_unit_are_refused(tmp_path):
+    names = ("time (s)", "ax (g)", "ay (g)", "az (g)", "gx (dps)", "gy (dps)", "gz (dps)")
+    sentence = r"should be in g .* reads 204. at rest, which is gravity in no known unit"
+    with pytest.raises(RecordingError, match=sentence):
+        read(write(tmp_path, rows(force=9.80665 / 2048, rate=np.pi / 180), names))
 
 
 def test_a_unit_that_only_gravity_tells_is_doubtful_where_gravity_is_off(tmp_path):

@@ -49,7 +49,8 @@ TABLE_OPTIONS = (
     *("axes", "field_scale", "force_unit", "rate_unit", "layout", "known_layout", "preset"),
     *("left_device", "right_device"),
 )
-FLAGS = {"layout": "--columns, --rate and the like", "known_layout": "--layout"}
+FLAGS = {"known_layout": "--layout"}
+LAYOUT_FLAGS = {"time_units": "--time-unit", "rate_hz": "--rate"}
 FORMATS = (
     Format(
         "dual-feet",
@@ -123,10 +124,18 @@ def check_options(options: ImportOptions, chosen: Format) -> None:
         if spec.name in (*OF_ALL, *chosen.options) or getattr(options, spec.name) == spec.default:
             continue
         able = [f.name for f in FORMATS if spec.name in f.options and not f.preset]
-        flag = FLAGS.get(spec.name, f"--{spec.name.replace('_', '-')}")
+        flag = _flag(spec.name, options)
         raise RecordingError(
             f"{flag} does not apply to the format {chosen.name}; it is for {', '.join(able)}"
         )
+
+
+def _flag(name: str, options: ImportOptions) -> str:
+    """Return how the command line calls the option ``name``, as it is given."""
+    if name == "layout" and options.layout is not None:
+        first = next(iter(options.layout.told()))
+        return LAYOUT_FLAGS.get(first, f"--{first}")
+    return FLAGS.get(name, f"--{name.replace('_', '-')}")
 
 
 def is_table(path: Path) -> bool:

@@ -32,6 +32,7 @@ class TableFile:
     facts : key and value of the lines before the names
     layout : what the user gave, over the known layout, if it is one
     given, known : the two apart
+    recognised : whether the table itself told its known layout
     """
 
     path: Path
@@ -41,6 +42,7 @@ class TableFile:
     facts: Mapping[str, str]
     given: Layout
     known: Layout | None
+    recognised: bool = False
     _read: dict[int, tuple[FloatArray, BoolArray]] = field(default_factory=dict, repr=False)
 
     @property
@@ -100,9 +102,9 @@ class TableFile:
         found = [Assumption(foot, "text", f"{self.path.name}: {text}", told)]
         layout = self.known
         if layout is not None:
-            found.append(
-                Assumption(foot, "layout", f"{layout.name} ({layout.about})", Origin.NAME)
-            )
+            about = f" ({layout.about})" if layout.about else " (of a layout file)"
+            origin = Origin.NAME if self.recognised else Origin.OPTION
+            found.append(Assumption(foot, "layout", f"{layout.name}{about}", origin))
         if self.body.dropped:
             dropped = f"left out, it was cut: '{self.body.dropped[:40]}'"
             found.append(Assumption(foot, "last row", dropped, Origin.VALUES, doubtful=True))
@@ -121,6 +123,7 @@ def open_table(path: Path, given: Layout, known: Layout | None = None) -> TableF
     """
     raw = read_text(path)
     dialect = find_dialect(raw, given.over(known or Layout()))
+    told = known is not None
     if known is None:
         plain = [read_name(name, k).plain for k, name in enumerate(dialect.names)]
         known = recognise(plain, dialect.preamble)
@@ -132,6 +135,7 @@ def open_table(path: Path, given: Layout, known: Layout | None = None) -> TableF
         header_facts(dialect.preamble, dialect.delimiter),
         given,
         known,
+        recognised=not told,
     )
 
 

@@ -1,4 +1,4 @@
-"""Options about tables (csv and the like), for ``import`` and verbs that take files as a bag."""
+"""Options about tables and captures, for ``import`` and verbs that take files as a bag."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     Arguments = argparse._ActionsContainer  # noqa: SLF001  (a parser or a group; it has no other name)
 
 TABLES = "tables (csv and the like), where the file does not tell"
+CAPTURES = "bytes captured from devices (format capture)"
 TIME_UNITS = ("s", "ms", "100us", "us", "ns", "samples")
 DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t", "bar": "|", "space": " "}
 DECIMALS = {"point": ".", "comma": ","}
@@ -99,6 +100,26 @@ def add_intake_arguments(parser: argparse.ArgumentParser) -> None:
     _add_form_arguments(group)
     _add_device_arguments(group)
     _add_layout_argument(group)
+    add_capture_arguments(group)
+
+
+def add_capture_arguments(group: Arguments) -> None:
+    """Add ``--capture`` and ``--capture-rate``."""
+    group.add_argument(
+        "--capture",
+        default="",
+        metavar="FORMAT",
+        help="format of the files of --left and --right, as a live source has it, with options of "
+        "the decoder behind a '?': ximu3, xbus, witmotion?force_range=4 (default: by the ending "
+        ".ximu3)",
+    )
+    group.add_argument(
+        "--capture-rate",
+        type=float,
+        default=0.0,
+        metavar="HZ",
+        help="samples a second of a captured device that sends no time",
+    )
 
 
 def add_axes_argument(parser: Arguments) -> None:
@@ -166,6 +187,8 @@ def import_in_memory(path: str | None, args: argparse.Namespace) -> Recording:
         known_layout=known_layout(args),
         left_device=args.left_device,
         right_device=args.right_device,
+        capture=args.capture,
+        capture_rate=args.capture_rate,
     )
     recording = import_recording(options)
     for line in assumption_lines(recording):

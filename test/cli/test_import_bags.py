@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from drivers.frames import stream
 from recording.foreign import cut, ros1_bag, ros2_bag
 from recording.samples import moving
 
@@ -172,3 +173,14 @@ def test_one_topic_for_both_feet_is_refused(tmp_path, walk, dualfoot):
     done = dualfoot("import", bag, "--left-topic", one, "--right-topic", one, "-o", "x")
     assert done.returncode == 2
     assert "both feet hold the same samples" in done.stderr
+
+
+def test_captured_bytes_are_described_in_place_of_a_bag(tmp_path, dualfoot):
+    for first, foot in enumerate(("L", "R")):
+        (tmp_path / f"{foot}.bin").write_bytes(stream("xbus", 400, first=first))
+    files = ("--left", "L.bin", "--right", "R.bin")
+    done = dualfoot("info", *files, cwd=tmp_path)
+    assert "'*.bin' are of no known format" in done.stderr
+    assert "name another with --capture" in done.stderr
+    done = dualfoot("info", *files, "--capture", "xbus", "--json", cwd=tmp_path)
+    assert json.loads(done.stdout)["feet"]["left"]["samples"] == 400

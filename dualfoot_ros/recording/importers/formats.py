@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import cast
@@ -159,14 +159,22 @@ def _kind(path: Path) -> str:
     return FOLDER if held & BAG_SUFFIX_FILES or not held & (SUFFIXES | {""}) else TABLES
 
 
+def _shown(suffixes: Sequence[str]) -> str:
+    words = {FOLDER: "folder", TABLES: "folder of these"}
+    return ", ".join(words.get(suffix, suffix) for suffix in suffixes)
+
+
 def _format(name: str, suffix: str) -> Format:
     for candidate in FORMATS:
         if name == candidate.name or (name == "auto" and suffix in candidate.suffixes):
             return candidate
     names = ", ".join(f.name for f in FORMATS)
     if name == "auto":
-        known = ", ".join(f"{' or '.join(f.suffixes)} ({f.name})" for f in FORMATS)
-        raise RecordingError(f"files '*{suffix}' are of no known format; known: {known}")
+        known = "; ".join(f"{f.name}: {_shown(f.suffixes)}" for f in FORMATS if f.suffixes)
+        raise RecordingError(
+            f"files '*{suffix}' are of no known format; known are {known}; name another with "
+            "--capture (bytes of a device), or take 'dualfoot import --format csv' (a table)"
+        )
     raise RecordingError(f"format is '{name}'; allowed is auto, {names}")
 
 

@@ -249,7 +249,11 @@ def test_sources_of_no_known_format_are_refused_with_the_known_ones(tmp_path):
     for options, name, sentence in [
         (ImportOptions(), "auto", "no source given"),
         (ImportOptions((tmp_path / "none.mat",)), "auto", "there is no file"),
-        (ImportOptions((other,)), "auto", r"'\*.xyz' are of no known format; known: .mat"),
+        (
+            ImportOptions((other,)),
+            "auto",
+            r"'\*.xyz' are of no known format; known are dual-feet: .mat; rosbag: folder",
+        ),
         (ImportOptions((other,)), "tape", "format is 'tape'; allowed is auto, dual-feet"),
     ]:
         with pytest.raises(RecordingError, match=sentence):

@@ -20,7 +20,9 @@ from ..recording.importers import (
 from .arguments import add_bag_output_argument, add_storage_arguments, save_bag
 from .printing import print_warning
 from .table_options import (
+    CAPTURES,
     add_axes_argument,
+    add_capture_arguments,
     add_table_arguments,
     add_unit_arguments,
     assumption_lines,
@@ -102,7 +104,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_unit_arguments(parser)
     add_table_arguments(parser)
     _add_bag_arguments(parser)
-    _add_capture_arguments(parser)
+    add_capture_arguments(parser.add_argument_group(CAPTURES))
     add_storage_arguments(parser)
 
 
@@ -122,25 +124,6 @@ def _add_bag_arguments(parser: argparse.ArgumentParser) -> None:
         help="header: as they are (default); log: the log times, evened out, for headers of "
         "zero; index: those of the headers, evened out by the number of the sample, for times of "
         "arrival and bursts",
-    )
-
-
-def _add_capture_arguments(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("bytes captured from devices (format capture)")
-    group.add_argument(
-        "--capture",
-        default="",
-        metavar="FORMAT",
-        help="format of the files of --left and --right, as a live source has it, with options of "
-        "the decoder behind a '?': ximu3, xbus, witmotion?force_range=4 (default: by the ending "
-        ".ximu3)",
-    )
-    group.add_argument(
-        "--capture-rate",
-        type=float,
-        default=0.0,
-        metavar="HZ",
-        help="samples a second of a device that sends no time",
     )
 
 

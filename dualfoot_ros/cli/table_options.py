@@ -1,4 +1,4 @@
-"""Options about tables (csv and the like), for ``import`` and verbs that take files as a bag."""
+"""Options about tables and captures, for ``import`` and verbs that take files as a bag."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     Arguments = argparse._ActionsContainer  # noqa: SLF001  (a parser or a group; it has no other name)
 
+TABLES = "tables (csv and the like), where the file does not tell"
+CAPTURES = "bytes captured from devices (format capture)"
 TIME_UNITS = ("s", "ms", "100us", "us", "ns", "samples")
 DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t", "bar": "|", "space": " "}
 DECIMALS = {"point": ".", "comma": ","}
@@ -24,7 +26,24 @@ MARK = "!"  # before what the user should look at
 
 def add_table_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options about the layout of a table."""
-    group = parser.add_argument_group("tables (csv and the like), where the file does not tell")
+    group = parser.add_argument_group(TABLES)
+    _add_form_arguments(group)
+    _add_device_arguments(group)
+    _add_layout_argument(group)
+    group.add_argument(
+        "--save-layout", type=Path, metavar="YAML", help="keep the layout that was found"
+    )
+
+
+def add_single_table_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the options about the layout of a table with one sensor, and about its units."""
+    group = parser.add_argument_group(TABLES)
+    add_unit_arguments(group)
+    _add_form_arguments(group)
+    _add_layout_argument(group)
+
+
+def _add_form_arguments(group: Arguments) -> None:
     group.add_argument(
         "--columns",
         metavar="ROLE=NAME,...",
@@ -38,20 +57,18 @@ def add_table_arguments(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument("--decimal", choices=[*DECIMALS, *".,"], help="decimal sign")
     group.add_argument("--skip", type=int, metavar="N", help="lines to skip before the table")
+
+
+def _add_device_arguments(group: Arguments) -> None:
     for foot in FEET:
         group.add_argument(
             f"--{foot}-device",
             metavar="ID",
             help=f"device of the {foot} foot, where a column names the device",
         )
-    add_layout_argument(group)
-    group.add_argument(
-        "--save-layout", type=Path, metavar="YAML", help="keep the layout that was found"
-    )
 
 
-def add_layout_argument(parser: Arguments) -> None:
-    """Add ``--layout``."""
+def _add_layout_argument(parser: Arguments) -> None:
     parser.add_argument(
         "--layout", type=Path, metavar="YAML", help="layout of the table, of --save-layout"
     )
@@ -80,7 +97,29 @@ def add_intake_arguments(parser: argparse.ArgumentParser) -> None:
         )
     add_axes_argument(group)
     add_unit_arguments(group)
-    add_layout_argument(group)
+    _add_form_arguments(group)
+    _add_device_arguments(group)
+    _add_layout_argument(group)
+    add_capture_arguments(group)
+
+
+def add_capture_arguments(group: Arguments) -> None:
+    """Add ``--capture`` and ``--capture-rate``."""
+    group.add_argument(
+        "--capture",
+        default="",
+        metavar="FORMAT",
+        help="format of the files of --left and --right, as a live source has it, with options of "
+        "the decoder behind a '?': ximu3, xbus, witmotion?force_range=4 (default: by the ending "
+        ".ximu3)",
+    )
+    group.add_argument(
+        "--capture-rate",
+        type=float,
+        default=0.0,
+        metavar="HZ",
+        help="samples a second of a captured device that sends no time",
+    )
 
 
 def add_axes_argument(parser: Arguments) -> None:
@@ -95,7 +134,7 @@ def add_axes_argument(parser: Arguments) -> None:
 
 
 def given_layout(args: argparse.Namespace) -> Layout | None:
-    """Return what the options of :func:`add_table_arguments` say; None where they say nothing.
+    """Return what the options about the form of a table say; None where they say nothing.
 
     Raises
     ------
@@ -144,7 +183,12 @@ def import_in_memory(path: str | None, args: argparse.Namespace) -> Recording:
         axes=args.axes,
         force_unit=args.force_unit,
         rate_unit=args.rate_unit,
+        layout=given_layout(args),
         known_layout=known_layout(args),
+        left_device=args.left_device,
+        right_device=args.right_device,
+        capture=args.capture,
+        capture_rate=args.capture_rate,
     )
     recording = import_recording(options)
     for line in assumption_lines(recording):

@@ -18,6 +18,7 @@ NO_GRAVITY = 2.0  # m/s^2
 FASTEST = 35.0  # rad/s, 2000 deg/s
 LARGEST_BIAS = 0.2  # rad/s at rest; a gyro that reads more is in deg/s, or broken
 SLOW_HZ = 50.0
+FAST_HZ = 2500.0  # faster than any sensor of a foot
 JITTER_SHARE = 0.3  # of the sampling interval
 AXES_FOR_UP = {
     "-z": "x,-y,-z",
@@ -186,6 +187,12 @@ def _sampling_advice(facts: ArrivalFacts) -> dict[str, str]:
     if facts.rate_hz < SLOW_HZ:
         text = f"the device sends {facts.rate_hz:.0f} samples a second; set it to 100 or more"
         advice["checks.rate"] = text
+    if facts.rate_hz > FAST_HZ:
+        advice["source"] = (
+            f"{facts.rate_hz:.0f} samples a second cannot be, so the ticks of its clock are "
+            "longer than they are taken for; set the device to the clock that the format has, or "
+            "leave out format= of a table"
+        )
     if facts.jitter_s * facts.rate_hz > JITTER_SHARE:
         text = "the stamps are times of arrival; let the device send its own time" + (
             ", or set stamp to device where the header has it" if facts.device_time else ""

@@ -44,19 +44,10 @@ class _Rows:
     def __init__(self, stamp_ns: IntArray, values: Values, texts: tuple[str, ...]) -> None:
         """Take the stamps (N,), the values of a slice of messages, and the texts of all."""
         self._stamps, self._values, self._texts = stamp_ns, values, texts
-        self._start = -BLOCK
-        self._block = memoryview(b"")
-        self._length = 0
 
-    def __getitem__(self, place: int) -> memoryview:
-        """Return the bytes of message ``place``."""
-        if not self._start <= place < self._start + BLOCK:
-            self._start = place - place % BLOCK
-            part = slice(self._start, self._start + BLOCK)
-            rows = cdr.encode(self._stamps[part], self._values(part), self._texts)
-            self._block, self._length = memoryview(rows.tobytes()), rows.shape[1]
-        at = (place - self._start) * self._length
-        return self._block[at : at + self._length]
+    def __getitem__(self, part: slice) -> NDArray[np.uint8]:
+        """Return (K, length) bytes of a slice of the messages."""
+        return cdr.encode(self._stamps[part], self._values(part), self._texts)
 
 
 class _Channel(NamedTuple):
@@ -183,17 +174,33 @@ def _write(
             writer.add_topic(c.topic, c.msgtype, latched_depth=int(c.msgtype == INCREMENTS_TYPE))
             for c in channels
         ]
-        logged, which, row = _in_order(channels)
-        for done, (stamp, channel, i) in enumerate(zip(logged, which, row, strict=True)):
-            writer.write(keys[channel], stamp, channels[channel].rows[i].tobytes())
-            if progress is not None and done % 4096 == 0:
-                progress(done / len(logged))
+        logged, which = _in_order(channels)
+        done = [0] * len(channels)  # rows of each channel that are written
+        for start in range(0, len(logged), BLOCK):
+            part = slice(start, start + BLOCK)
+            writer.write_many(keys, which[part], logged[part], _next(channels, which[part], done))
+            if progress is not None:
+                progress(start / len(logged))
 
 
-def _in_order(channels: list[_Channel]) -> tuple[list[int], list[int], list[int]]:
-    """Return log time, channel and row of every message, in the order of the log times."""
+def _in_order(channels: list[_Channel]) -> tuple[IntArray, IntArray]:
+    """Return log time and channel of every message, in the order of the log times.
+
+    The messages of a channel keep their order.
+    """
     logged = np.concatenate([np.maximum.accumulate(c.stamp_ns) for c in channels])
     which = np.concatenate([np.full(len(c.stamp_ns), k) for k, c in enumerate(channels)])
-    row = np.concatenate([np.arange(len(c.stamp_ns)) for c in channels])
     order = np.argsort(logged, kind="stable")
-    return logged[order].tolist(), which[order].tolist(), row[order].tolist()
+    return logged[order], which[order]
+
+
+def _next(channels: list[_Channel], which: IntArray, done: list[int]) -> list[bytes]:
+    """Return the next message of each channel in ``which`` (K,), and count it in ``done``."""
+    upcoming = []
+    counts = np.bincount(which, minlength=len(channels)).tolist()
+    for place, (channel, count) in enumerate(zip(channels, counts, strict=True)):
+        rows = channel.rows[done[place] : done[place] + count]
+        done[place] += count
+        whole = np.ascontiguousarray(rows).view(f"V{rows.shape[1]}")[:, 0]
+        upcoming.append(iter(whole.tolist()))
+    return [next(upcoming[place]) for place in which.tolist()]

@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from drivers.frames import stream
 from recording.foreign import cut, ros1_bag, ros2_bag
 from recording.samples import moving
 
@@ -84,9 +85,11 @@ def test_headers_of_zero_are_replaced_by_the_log_times(tmp_path, walk, whole, du
     done = dualfoot("info", bag)
     assert done.returncode == 2
     assert "'dualfoot import BAG --stamps log -o NEW'" in done.stderr
-    done = dualfoot("import", bag, "--stamps", "index", "-o", "x", cwd=tmp_path)
-    assert done.returncode == 2
-    assert "take --stamps log" in done.stderr
+    for stamps in ("header", "index"):
+        done = dualfoot("import", bag, "--stamps", stamps, "-o", "x", cwd=tmp_path)
+        assert done.returncode == 2
+        assert "with --stamps log" in done.stderr
+        assert not (tmp_path / "x").exists()
     done = dualfoot("import", bag, "--stamps", "log", "-o", "even", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert "stamps: log times, evened out: left every 16.66" in done.stdout
@@ -160,5 +163,24 @@ def test_a_layout_of_a_table_is_refused_for_a_bag(tmp_path, dualfoot):
     for option in (["--rate", "100"], ["--layout", "mine.yaml"]):
         done = dualfoot("import", "walk.mcap", *option, "-o", "walk", cwd=tmp_path)
         assert done.returncode == 2
-        assert f"{option[0]}" in done.stderr
-        assert "does not apply to the format rosbag; it is for csv" in done.stderr
+        refusal = f"{option[0]} does not apply to the format rosbag; it is for csv"
+        assert refusal in done.stderr
+
+
+def test_one_topic_for_both_feet_is_refused(tmp_path, walk, dualfoot):
+    bag = ros2_bag(tmp_path / "walk", topics_of(walk))
+    one = "/left/imu/data_raw"
+    done = dualfoot("import", bag, "--left-topic", one, "--right-topic", one, "-o", "x")
+    assert done.returncode == 2
+    assert "both feet hold the same samples" in done.stderr
+
+
+def test_captured_bytes_are_described_in_place_of_a_bag(tmp_path, dualfoot):
+    for first, foot in enumerate(("L", "R")):
+        (tmp_path / f"{foot}.bin").write_bytes(stream("xbus", 400, first=first))
+    files = ("--left", "L.bin", "--right", "R.bin")
+    done = dualfoot("info", *files, cwd=tmp_path)
+    assert "'*.bin' are of no known format" in done.stderr
+    assert "name another with --capture" in done.stderr
+    done = dualfoot("info", *files, "--capture", "xbus", "--json", cwd=tmp_path)
+    assert json.loads(done.stdout)["feet"]["left"]["samples"] == 400

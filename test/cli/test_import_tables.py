@@ -218,6 +218,20 @@ def test_files_in_place_of_a_bag_give_what_the_bag_gives(tmp_path, dualfoot):
             assert facts[0].keys() == facts[1].keys()
 
 
+@pytest.mark.parametrize("verb", [["info"], ["sync"], ["evaluate"], ["calibrate", "spacing"]])
+def test_a_verb_that_takes_files_takes_the_options_that_its_refusal_names(
+    tmp_path, verb, dualfoot
+):
+    files = write(tmp_path, lambda series: generic(series).replace("Time", "Column"))
+    done = dualfoot(*verb, *files, cwd=tmp_path)
+    assert done.returncode == 2
+    assert "give the column with --columns time=NAME, or the sampling rate" in done.stderr
+    done = dualfoot(
+        *verb, *files, "--columns", "time=Column (s)", "--time-unit", "s", cwd=tmp_path
+    )
+    assert "Column (s), in s" in done.stderr
+
+
 def test_neither_a_bag_nor_files_is_a_sentence(tmp_path, dualfoot):
     done = dualfoot("info", cwd=tmp_path)
     assert done.returncode == 2

@@ -32,6 +32,22 @@ def test_a_capture_is_described_and_its_parameters_are_ready_to_paste(capture, d
     assert section["checks"] == {"rate": 200.0}
 
 
+@pytest.mark.parametrize("ticks", [1, 100])
+def test_a_table_is_described_as_the_adapter_reads_it(tmp_path, ticks, dualfoot):
+    names = "PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z"
+    rows = [f"{k},{1000 + k * 10_000 // ticks},0,0,{9.8 + k % 3 / 100},1,{k % 2},0"
+            for k in range(300)]  # fmt: skip
+    (tmp_path / "left.csv").write_text("\n".join([names, *rows]) + "\n")
+    done = dualfoot("probe", "file://left.csv", cwd=tmp_path)
+    assert "300 samples: 100.0 Hz" in done.stderr
+    section = yaml.safe_load(done.stdout)["/**/left/imu_adapter"]["ros__parameters"]
+    assert section == {"source": "file://left.csv", "checks": {"rate": 100.0}}
+    (tmp_path / "left.csv").write_text("a,b\n1,2\n3,4\n")
+    done = dualfoot("probe", "file://left.csv", cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "no specific force and no angular rate" in done.stderr
+
+
 def test_two_sources_are_the_left_and_the_right_foot(capture, dualfoot):
     left, right = capture("l", stream("xbus", 200)), capture("r", stream("vectornav_ascii", 200))
     done = dualfoot("probe", left, right)

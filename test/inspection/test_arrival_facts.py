@@ -44,6 +44,11 @@ def test_the_unit_of_the_specific_force_is_known_by_gravity(scale, unit):
     assert ("units.specific_force" in advice_on(facts)) is (unit != "m/s^2")
 
 
+def test_a_rate_that_no_sensor_has_tells_of_longer_ticks():
+    assert "6000 samples a second cannot be" in advice_on(facts_of(hz=6000.0))["source"]
+    assert advice_on(facts_of(hz=1000.0)) == {}
+
+
 def test_acceleration_without_gravity_is_told():
     rng = np.random.default_rng(1)
     noise = rng.normal(0.0, 0.05, (400, 3))

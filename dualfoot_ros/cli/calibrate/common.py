@@ -14,7 +14,7 @@ from ..arguments import (
     add_topic_arguments,
 )
 from ..printing import print_json, print_warning, progress
-from ..table_options import add_layout_argument, add_unit_arguments, known_layout
+from ..table_options import add_single_table_arguments, given_layout, known_layout
 
 if TYPE_CHECKING:
     from ...calibration import Calibration
@@ -49,8 +49,7 @@ def add_sensor_arguments(parser: argparse.ArgumentParser) -> None:
         help="device axes that point forward, left and up, as in 'dualfoot import' "
         "(exports only; default: %(default)s)",
     )
-    add_unit_arguments(parser)
-    add_layout_argument(parser)
+    add_single_table_arguments(parser)
     add_output_arguments(parser)
     add_topic_arguments(parser)
 
@@ -67,7 +66,10 @@ def load(args: argparse.Namespace) -> dict[str, list[tuple[str, ImuSeries]]]:
     from ...recording.importers import ImportOptions
 
     tables = ImportOptions(
-        force_unit=args.force_unit, rate_unit=args.rate_unit, known_layout=known_layout(args)
+        force_unit=args.force_unit,
+        rate_unit=args.rate_unit,
+        layout=given_layout(args),
+        known_layout=known_layout(args),
     )
     topics = _topics(args)
     with progress("reading"):

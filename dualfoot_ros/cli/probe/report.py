@@ -5,10 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from typing import Any
+from urllib.parse import unquote, urlsplit
 
 import numpy as np
 
+from ...core import RecordingError
 from ...drivers import (
     BAUDS,
     Heard,
@@ -24,6 +27,8 @@ from ...inspection import ArrivalFacts, advice_on, arrival_facts, describe_arriv
 LEAST_SAMPLES = 5
 XBUS = "xbus"
 FILE = "file:"
+TABLE_FORMAT = "dot_csv"  # one layout of many, in which the importer looks at more than this does
+TABLES = (".csv", ".txt", ".tsv")
 
 
 @dataclass(frozen=True)
@@ -81,8 +86,11 @@ def probe_one(uri: str, seconds: float) -> ProbeReport:
     heard = listen(uri, seconds)
     if not heard.bytes:
         return ProbeReport(heard, problems=["nothing came: is the device on, and set to send?"])
-    usable = heard.uri.startswith("ble:") or any(found.samples for found in heard.recognised)
-    if not usable:
+    usable = [found.format for found in heard.recognised if found.samples]
+    table = _table(uri)
+    if table is not None and usable in ([], [TABLE_FORMAT]):
+        return _probe_table(table, Heard(uri, heard.chunks, heard.recognised))
+    if not usable and not heard.uri.startswith("ble:"):
         return ProbeReport(heard, problems=[_unusable(heard)])
     samples = _decode(heard)
     if len(samples) < LEAST_SAMPLES:
@@ -93,6 +101,28 @@ def probe_one(uri: str, seconds: float) -> ProbeReport:
         stamps = np.zeros_like(stamps)  # those of reading say nothing
     facts = arrival_facts(stamps, samples.specific_force, samples.angular_rate, has_time)
     return ProbeReport(heard, facts, _problems(heard), advice_on(facts, units_known=True))
+
+
+def _table(uri: str) -> Path | None:
+    """Return the table that a URI without options names, or None."""
+    parts = urlsplit(uri)
+    path = Path(unquote(parts.netloc + parts.path)).expanduser()
+    named = parts.scheme == "file" and not parts.query and path.suffix.lower() in TABLES
+    return path if named else None
+
+
+def _probe_table(path: Path, heard: Heard) -> ProbeReport:
+    """Report what the importer finds in a table, as ``imu_adapter`` reads it."""
+    from ...recording.importers import read_sensors
+
+    try:
+        sensors = read_sensors(path)
+    except RecordingError as error:
+        return ProbeReport(heard, problems=[str(error)])
+    series = next(iter(sensors.values()))
+    facts = arrival_facts(series.stamp_ns, series.specific_force, series.angular_rate, True)
+    problems = [] if len(sensors) == 1 else ["both feet are in it; described is the left one"]
+    return ProbeReport(heard, facts, problems, advice_on(facts, units_known=True))
 
 
 def _decode(heard: Heard) -> SampleSeries:

@@ -27,6 +27,7 @@ from ...core import (
 from ...drivers import SampleSeries, SourceUri, make_decoder, parse_uri, recognise, series_of
 from ..recording import Recording
 from .options import ImportOptions
+from .twins import without_twins
 
 CHUNK = 1 << 16
 LOSSES = (
@@ -53,8 +54,8 @@ def load(options: ImportOptions) -> Recording:
     ConfigError
         When the axes are not three signed axes, right-handed.
     RecordingError
-        When a foot or the format is missing, a file has no samples of it, or a device without a
-        clock has no rate.
+        When a foot or the format is missing, a file has no samples of it, a device without a
+        clock has no rate, or both feet hold the same samples.
     """
     if options.left is None or options.right is None or options.sources:
         raise RecordingError("a capture holds one sensor; give --left FILE and --right FILE")
@@ -75,7 +76,7 @@ def load(options: ImportOptions) -> Recording:
     }
     if losses:
         notes["losses"] = losses
-    return Recording(left=series["left"], right=series["right"], notes=notes)
+    return without_twins(Recording(left=series["left"], right=series["right"], notes=notes))
 
 
 def _source(path: Path, capture: str) -> SourceUri:

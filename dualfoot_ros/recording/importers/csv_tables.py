@@ -20,6 +20,7 @@ from ..recording import Recording
 from .options import ImportOptions
 from .sample_counter import same_wrap
 from .tables import BY_NAME, Intake, Layout, Reading, layout_text, read_feet, read_one, to_note
+from .twins import without_twins
 
 SECOND_NS = 1_000_000_000
 HEADER_NOTES = {"SyncStatus": "sync_status", "DeviceTag": "device_tag", "StartTime": "start_time"}
@@ -33,15 +34,15 @@ def load(options: ImportOptions) -> Recording:
     ConfigError
         When the axes are not three signed axes, right-handed.
     RecordingError
-        When a foot is missing, or a file is no table of which columns, time and units are known;
-        names the file, the column and the option that helps.
+        When a foot is missing or both hold the same samples, or a file is no table of which
+        columns, time and units are known; names the file, the column and the option that helps.
     """
     rotation = np.array(axes_matrix(options.axes))
     readings = _readings(options)
     stamps = _on_one_axis(readings)
     series = {foot: _turned(readings[foot].series, stamps[foot], rotation) for foot in FEET}
-    _refuse_twins(series["left"], series["right"])
-    return Recording(left=series["left"], right=series["right"], notes=_notes(options, readings))
+    notes = _notes(options, readings)
+    return without_twins(Recording(left=series["left"], right=series["right"], notes=notes))
 
 
 def read_sensors(
@@ -136,17 +137,6 @@ def _turned(series: ImuSeries, stamp_ns: IntArray, rotation: FloatArray) -> ImuS
         angular_rate=series.angular_rate @ rotation.T,
         magnetic_field=None if field is None else field @ rotation.T,
     )
-
-
-def _refuse_twins(left: ImuSeries, right: ImuSeries) -> None:
-    """Refuse two feet with the same samples: one file was given twice, or copied."""
-    if np.array_equal(left.stamp_ns, right.stamp_ns) and np.array_equal(
-        left.specific_force, right.specific_force
-    ):
-        raise RecordingError(
-            "both feet hold the same samples, so one file was given or exported twice; give the "
-            "file of the other foot"
-        )
 
 
 def _notes(options: ImportOptions, readings: dict[str, Reading]) -> dict[str, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import cast
@@ -49,7 +49,8 @@ TABLE_OPTIONS = (
     *("axes", "field_scale", "force_unit", "rate_unit", "layout", "known_layout", "preset"),
     *("left_device", "right_device"),
 )
-FLAGS = {"layout": "--columns, --rate and the like", "known_layout": "--layout"}
+FLAGS = {"known_layout": "--layout"}
+LAYOUT_FLAGS = {"time_units": "--time-unit", "rate_hz": "--rate"}
 FORMATS = (
     Format(
         "dual-feet",
@@ -123,10 +124,18 @@ def check_options(options: ImportOptions, chosen: Format) -> None:
         if spec.name in (*OF_ALL, *chosen.options) or getattr(options, spec.name) == spec.default:
             continue
         able = [f.name for f in FORMATS if spec.name in f.options and not f.preset]
-        flag = FLAGS.get(spec.name, f"--{spec.name.replace('_', '-')}")
+        flag = _flag(spec.name, options)
         raise RecordingError(
             f"{flag} does not apply to the format {chosen.name}; it is for {', '.join(able)}"
         )
+
+
+def _flag(name: str, options: ImportOptions) -> str:
+    """Return how the command line calls the option ``name``, as it is given."""
+    if name == "layout" and options.layout is not None:
+        first = next(iter(options.layout.told()))
+        return LAYOUT_FLAGS.get(first, f"--{first}")
+    return FLAGS.get(name, f"--{name.replace('_', '-')}")
 
 
 def is_table(path: Path) -> bool:
@@ -150,14 +159,22 @@ def _kind(path: Path) -> str:
     return FOLDER if held & BAG_SUFFIX_FILES or not held & (SUFFIXES | {""}) else TABLES
 
 
+def _shown(suffixes: Sequence[str]) -> str:
+    words = {FOLDER: "folder", TABLES: "folder of these"}
+    return ", ".join(words.get(suffix, suffix) for suffix in suffixes)
+
+
 def _format(name: str, suffix: str) -> Format:
     for candidate in FORMATS:
         if name == candidate.name or (name == "auto" and suffix in candidate.suffixes):
             return candidate
     names = ", ".join(f.name for f in FORMATS)
     if name == "auto":
-        known = ", ".join(f"{' or '.join(f.suffixes)} ({f.name})" for f in FORMATS)
-        raise RecordingError(f"files '*{suffix}' are of no known format; known: {known}")
+        known = "; ".join(f"{f.name}: {_shown(f.suffixes)}" for f in FORMATS if f.suffixes)
+        raise RecordingError(
+            f"files '*{suffix}' are of no known format; known are {known}; name another with "
+            "--capture (bytes of a device), or take 'dualfoot import --format csv' (a table)"
+        )
     raise RecordingError(f"format is '{name}'; allowed is auto, {names}")
 
 

@@ -23,6 +23,7 @@ from ..topic_choice import find_topics
 from ..topics import Topics
 from .bag_stamps import restamped
 from .options import ImportOptions
+from .twins import without_twins
 
 
 def load(options: ImportOptions) -> Recording:
@@ -33,7 +34,8 @@ def load(options: ImportOptions) -> Recording:
     ConfigError
         When the axes are not three signed axes, right-handed.
     RecordingError
-        When it is no bag, a unit is unknown, or neither topic is there.
+        When it is no bag, a unit is unknown, a topic is not there, both hold the same samples, or
+        the headers have no stamps.
     """
     if len(options.sources) != 1 or options.left or options.right:
         raise RecordingError("a bag holds both feet; give exactly one, without --left and --right")
@@ -54,12 +56,14 @@ def load(options: ImportOptions) -> Recording:
         "axes": f"forward, left, up were {options.axes}",
         "units": f"specific force was {force_unit}, angular rate {rate_unit}",
     }
-    return replace(
-        recording,
-        left=_turned(recording.left, rotation, force, rate),
-        right=_turned(recording.right, rotation, force, rate),
-        notes=notes,
-        topics=Topics(),
+    return without_twins(
+        replace(
+            recording,
+            left=_turned(recording.left, rotation, force, rate),
+            right=_turned(recording.right, rotation, force, rate),
+            notes=notes,
+            topics=Topics(),
+        )
     )
 
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib import util
 from pathlib import Path
 from typing import Any, Protocol
 
-from ...core import RecordingError
+import numpy as np
+
+from ...core import IntArray, RecordingError
+from .mcap_writer import McapStorage
 
 NO_LIBRARY = (
     "bags need the package rosbags (pip install rosbags), or rosbag2_py of a ROS 2 installation "
@@ -27,6 +30,11 @@ class BagWriter(Protocol):
 
     def write(self, key: Any, log_ns: int, data: bytes) -> None:
         """Write one message, as CDR bytes."""
+
+    def write_many(
+        self, keys: Sequence[Any], which: IntArray, log_ns: IntArray, data: Sequence[bytes]
+    ) -> None:
+        """Write messages in their order: place in ``keys`` (N,), log time (N,) ns, CDR bytes."""
 
 
 def has_rosbags() -> bool:
@@ -76,6 +84,30 @@ class _Rosbags:
     def write(self, key: Any, log_ns: int, data: bytes) -> None:
         self._writer.write(key, log_ns, data)
 
+    def write_many(
+        self, keys: Sequence[Any], which: IntArray, log_ns: IntArray, data: Sequence[bytes]
+    ) -> None:
+        if not hasattr(self._writer.storage, "write_many"):
+            _one_by_one(self, keys, which, log_ns, data)
+            return
+        numbers = np.array([key.id for key in keys])
+        self._writer.storage.write_many(numbers[which], log_ns, data)
+        for key, count in zip(keys, np.bincount(which, minlength=len(keys)), strict=True):
+            self._writer.counts[key.id] += int(count)
+        self._writer.min_timestamp = min(self._writer.min_timestamp, int(log_ns.min()))
+        self._writer.max_timestamp = max(self._writer.max_timestamp, int(log_ns.max()))
+
+
+def _one_by_one(
+    writer: BagWriter,
+    keys: Sequence[Any],
+    which: IntArray,
+    log_ns: IntArray,
+    data: Sequence[bytes],
+) -> None:
+    for place, stamp, message in zip(which.tolist(), log_ns.tolist(), data, strict=True):
+        writer.write(keys[place], stamp, message)
+
 
 def _latched_qos(depth: int) -> Any:
     """Return the QoS for a player to publish a topic with: reliable, transient local."""
@@ -109,6 +141,7 @@ def _rosbags(
     from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
     writer = Writer(folder, version=9, storage_plugin=StoragePlugin[storage.upper()])
+    writer.STORAGE_PLUGINS = {**writer.STORAGE_PLUGINS, StoragePlugin.MCAP: McapStorage}
     if packed:
         writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
     for key, value in custom.items():
@@ -138,6 +171,11 @@ class _Rosbag2Py:
 
     def write(self, key: str, log_ns: int, data: bytes) -> None:
         self._writer.write(key, data, log_ns)
+
+    def write_many(
+        self, keys: Sequence[Any], which: IntArray, log_ns: IntArray, data: Sequence[bytes]
+    ) -> None:
+        _one_by_one(self, keys, which, log_ns, data)
 
     def close(self) -> None:
         """Close the bag; older versions close with the last reference to the writer."""

@@ -1,13 +1,7 @@
-"""MCAP files without an index, as a cut-off recording leaves them: read from the start.
-
-After the MCAP format specification: the magic bytes, then records of one opcode byte, a length of
-eight bytes and the content, all little-endian.  Chunks hold further records, compressed.
-"""
+"""MCAP files without an index, as a cut-off recording leaves them: read from the start."""
 
 from __future__ import annotations
 
-import struct
-import sys
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
@@ -16,12 +10,19 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 from .bag_source import Message, TopicInfo
+from .mcap_format import (
+    CHANNEL,
+    CHUNK,
+    CHUNK_HEAD,
+    DATA_END,
+    HEAD,
+    MAGIC,
+    MESSAGE,
+    MESSAGE_HEAD,
+    SCHEMA,
+    zstd,
+)
 
-MAGIC = b"\x89MCAP0\r\n"
-SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 0x03, 0x04, 0x05, 0x06, 0x0F
-HEAD = struct.Struct("<BQ")  # opcode and length of a record
-MESSAGE_HEAD = struct.Struct("<HIQQ")  # channel, sequence, log time, publish time
-CHUNK_HEAD = struct.Struct("<QQQII")  # first and last time, size, checksum, length of a name
 MAX_RECORD = 1 << 31
 PIECE = 4096
 
@@ -158,8 +159,8 @@ def _lz4(data: bytes) -> bytes:
 
 
 def _zstd(data: bytes) -> bytes:
-    zstd = import_module("compression.zstd" if sys.version_info >= (3, 14) else "backports.zstd")
-    return _in_pieces(zstd.ZstdDecompressor().decompress, data, (EOFError, zstd.ZstdError))
+    library = zstd()
+    return _in_pieces(library.ZstdDecompressor().decompress, data, (EOFError, library.ZstdError))
 
 
 def _in_pieces(

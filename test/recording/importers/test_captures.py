@@ -46,19 +46,21 @@ def test_every_format_comes_out_in_si_units_with_the_stamps_of_the_devices(tmp_p
 
 def test_a_clock_that_wraps_goes_on(tmp_path):
     first = (1 << 32) // PERIOD_US - 100
-    paths = files(tmp_path, stream("mcu", COUNT, first=first), stream("mcu", COUNT, first=first))
+    paths = files(
+        tmp_path, stream("mcu", COUNT, first=first), stream("mcu", COUNT, first=first + 1)
+    )
     stamps = import_recording(ImportOptions(**paths, capture="mcu")).left.stamp_ns
     assert set(np.diff(stamps)) == {PERIOD_US * 1000}
 
 
 def test_a_file_of_an_x_imu3_is_known_by_its_ending(tmp_path):
-    paths = files(tmp_path, stream("ximu3", COUNT), stream("ximu3", COUNT), ".ximu3")
+    paths = files(tmp_path, stream("ximu3", COUNT), stream("ximu3", COUNT, first=1), ".ximu3")
     assert len(import_recording(ImportOptions(**paths)).left) == COUNT
 
 
 def test_a_device_without_a_clock_needs_its_rate(tmp_path):
-    data = b"".join(witmotion_combined(k) for k in range(COUNT))
-    paths = files(tmp_path, data, data)
+    frames = [witmotion_combined(k) for k in range(COUNT + 1)]
+    paths = files(tmp_path, b"".join(frames[:-1]), b"".join(frames[1:]))
     with pytest.raises(RecordingError, match=r"L.bin' sends no time; give .* --capture-rate HZ"):
         import_recording(ImportOptions(**paths, capture="witmotion"))
     options = ImportOptions(**paths, capture="witmotion", capture_rate=100.0)
@@ -68,7 +70,7 @@ def test_a_device_without_a_clock_needs_its_rate(tmp_path):
 
 
 def test_options_of_the_decoder_stand_behind_the_format(tmp_path):
-    paths = files(tmp_path, stream("witmotion", COUNT), stream("witmotion", COUNT))
+    paths = files(tmp_path, stream("witmotion", COUNT), stream("witmotion", COUNT, first=1))
     whole = import_recording(ImportOptions(**paths, capture="witmotion"))
     small = import_recording(ImportOptions(**paths, capture="witmotion?force_range=4"))
     assert np.allclose(4.0 * small.left.specific_force, whole.left.specific_force)
@@ -78,7 +80,7 @@ def test_options_of_the_decoder_stand_behind_the_format(tmp_path):
 
 
 def test_axes_turn_the_device_into_the_body(tmp_path):
-    paths = files(tmp_path, stream("mcu", COUNT), stream("mcu", COUNT))
+    paths = files(tmp_path, stream("mcu", COUNT), stream("mcu", COUNT, first=1))
     plain, turned = (
         import_recording(ImportOptions(**paths, capture="mcu", axes=axes)).left
         for axes in ("+x+y+z", "+y-x+z")
@@ -88,11 +90,11 @@ def test_axes_turn_the_device_into_the_body(tmp_path):
 
 
 def test_a_field_comes_along(tmp_path):
-    data = b""
-    for k in range(40):
+    frames = []
+    for k in range(41):
         plain = struct.pack("<BHI6f3h", 1 | 1 << 5, k, k * PERIOD_US, *[1.0] * 6, 100, -200, 300)
-        data += cobs(plain + struct.pack("<H", crc16(plain, 0xFFFF)))
-    paths = files(tmp_path, data, data)
+        frames.append(cobs(plain + struct.pack("<H", crc16(plain, 0xFFFF))))
+    paths = files(tmp_path, b"".join(frames[:-1]), b"".join(frames[1:]))
     found = import_recording(ImportOptions(**paths, capture="mcu", axes="+y-x+z"))
     assert np.allclose(found.left.magnetic_field, [-200e-7, -100e-7, 300e-7])
 
@@ -100,9 +102,8 @@ def test_a_field_comes_along(tmp_path):
 def test_what_was_damaged_or_lost_is_told(tmp_path):
     data = bytearray(stream("xbus", COUNT))
     data[len(data) // 2] ^= 0x40
-    found = import_recording(
-        ImportOptions(**files(tmp_path, bytes(data), bytes(data)), capture="xbus")
-    )
+    paths = files(tmp_path, bytes(data), stream("xbus", COUNT))
+    found = import_recording(ImportOptions(**paths, capture="xbus"))
     assert len(found.left) == COUNT - 1
     assert found.notes["losses"].startswith("left ")
 
@@ -111,6 +112,13 @@ def test_a_capture_of_another_format_is_recognised(tmp_path):
     paths = files(tmp_path, stream("xbus", 50), stream("xbus", 50))
     with pytest.raises(RecordingError, match=r"no sample .* 'vectornav' .* of the format 'xbus'"):
         import_recording(ImportOptions(**paths, capture="vectornav"))
+
+
+@pytest.mark.parametrize("name", TIMED)
+def test_a_capture_that_is_given_for_both_feet_is_refused(tmp_path, name):
+    paths = files(tmp_path, stream(name, 50), stream(name, 50))
+    with pytest.raises(RecordingError, match="both feet hold the same samples"):
+        import_recording(ImportOptions(**paths, capture=decoder_format(name)))
 
 
 def test_what_is_missing_is_said(tmp_path):

@@ -249,7 +249,11 @@ def test_sources_of_no_known_format_are_refused_with_the_known_ones(tmp_path):
     for options, name, sentence in [
         (ImportOptions(), "auto", "no source given"),
         (ImportOptions((tmp_path / "none.mat",)), "auto", "there is no file"),
-        (ImportOptions((other,)), "auto", r"'\*.xyz' are of no known format; known: .mat"),
+        (
+            ImportOptions((other,)),
+            "auto",
+            r"'\*.xyz' are of no known format; known are dual-feet: .mat; rosbag: folder",
+        ),
         (ImportOptions((other,)), "tape", "format is 'tape'; allowed is auto, dual-feet"),
     ]:
         with pytest.raises(RecordingError, match=sentence):
@@ -294,10 +298,10 @@ def test_every_format_loads_by_its_name(tmp_path, pair):
         "dual-feet": ImportOptions((walk(tmp_path / "w.mat"),)),
         "xsens-dot": ImportOptions(left=pair[0], right=pair[1]),
     }
-    bag = write_bag(tmp_path / "bag", import_recording(sources["dual-feet"]))
+    bag = write_bag(tmp_path / "bag", import_recording(sources["xsens-dot"]))
     sources["rosbag"] = ImportOptions((bag,))
-    for foot in ("left", "right"):
-        (tmp_path / f"{foot}.ximu3").write_bytes(stream("ximu3", 20))
+    for first, foot in enumerate(("left", "right")):
+        (tmp_path / f"{foot}.ximu3").write_bytes(stream("ximu3", 20, first=first))
     sources["capture"] = ImportOptions(
         left=tmp_path / "left.ximu3", right=tmp_path / "right.ximu3"
     )

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core import BoolArray, FloatArray, IntArray, RecordingError
-from .dialect import Dialect, split
+from .dialect import MISSING, Dialect, split
 from .raw_text import RawText
 
 EXACT_DIGITS = 16  # a whole number with so many does not fit a float
@@ -20,7 +20,7 @@ TEXT_BYTES = 40  # of a cell that is text
 BAD_ROWS = 200  # rows that are looked at one by one
 TAIL_ROWS = 50  # rows with which the last one is compared
 EMPTY = 1.7e308  # stands for an empty cell; no sensor reads it
-WORDS = rb"(?i:n/?a|null|none|#n/a|-+|\?)"
+WORDS = rb"(?i:n/?a|nan|null|none|#n/a|-+|\?)"
 
 
 @dataclass(frozen=True)
@@ -158,8 +158,8 @@ def read_numbers(body: Body, dialect: Dialect, places: Sequence[int], raw: RawTe
         pass
     try:
         numbers = _load(_repaired(body.data, dialect), dialect, places, number)
-    except ValueError as error:
-        raise _damage(raw, dialect, error) from None
+    except ValueError:
+        raise _damage(raw, dialect, body.data, places) from None
     empty = numbers == EMPTY
     return Cells(np.where(empty, np.nan, numbers), empty)
 
@@ -184,8 +184,8 @@ def read_words(body: Body, dialect: Dialect, place: int, raw: RawText) -> list[s
     data = re.sub(_blank_lines(dialect), b"", body.data)
     try:
         cells = _load(data, dialect, [place], np.dtype(f"S{TEXT_BYTES}"))[:, 0]
-    except ValueError as error:
-        raise _damage(raw, dialect, error) from None
+    except ValueError:
+        raise _damage(raw, dialect, body.data, ()) from None
     names = {cell: cell.decode(raw.encoding, "replace").strip() for cell in set(cells.tolist())}
     return [names[cell] for cell in cells.tolist()]
 
@@ -214,12 +214,41 @@ def _repaired(data: bytes, dialect: Dialect) -> bytes:
     """Return the rows with EMPTY in empty cells, without rows of empty cells."""
     sign = re.escape(dialect.delimiter.encode())
     data = re.sub(_blank_lines(dialect), b"", data + b"\n").rstrip(b"\n")
-    cell = rb'(?m)(?:(?<=%b)|^)[ \t]*(?:"[ \t]*")?(?:%b)?[ \t]*(?=%b|$)' % (sign, WORDS, sign)
+    gap = rb" *" if dialect.delimiter == "\t" else rb"[ \t]*"
+    word = rb'(?:"%b(?:%b)?%b"|(?:%b)?)' % (gap, WORDS, gap, WORDS)
+    cell = rb"(?m)(?:(?<=%b)|^)%b%b%b(?=%b|$)" % (sign, gap, word, gap, sign)
     return re.sub(cell, repr(EMPTY).encode(), data)
 
 
-def _damage(raw: RawText, dialect: Dialect, error: ValueError) -> RecordingError:
-    reason = " ".join(str(error).split()).split("; use", maxsplit=1)[0].rstrip(".")
+def _damage(raw: RawText, dialect: Dialect, data: bytes, places: Sequence[int]) -> RecordingError:
+    """Return the error that names the first cell of the columns that is no number."""
+    for row, line in enumerate(data.decode(raw.encoding, "replace").split("\n")):
+        cells = split(line, dialect.delimiter)
+        for place in places if any(cells) else ():
+            cell = cells[place] if place < len(cells) else ""
+            if not _is_float(cell):
+                name = (dialect.names[place] if dialect.names else "") or f"number {place + 1}"
+                return RecordingError(
+                    f"'{raw.path}' is damaged: line {dialect.first_line + row} has "
+                    f"'{_shown(cell)}' in column '{name}', which is no number; correct the "
+                    "cell, empty it or remove the row"
+                )
     return RecordingError(
-        f"'{raw.path}' is damaged: {reason} (rows counted from line {dialect.first_line})"
+        f"'{raw.path}' is damaged: its rows from line {dialect.first_line} on cannot be read as "
+        "numbers; export it again"
     )
+
+
+def _shown(cell: str) -> str:
+    """Return the start of a cell, with a mark for what cannot be printed."""
+    return "".join(sign if sign.isprintable() else "\ufffd" for sign in cell[:TEXT_BYTES])
+
+
+def _is_float(cell: str) -> bool:
+    if cell.lower() in MISSING:
+        return True
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return "_" not in cell

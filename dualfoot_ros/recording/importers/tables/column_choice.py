@@ -21,6 +21,7 @@ PRESENT = (
     ("angular rates", re.compile(r"gyr|omega|angular vel")),
     ("a magnetic field", re.compile(r"\bmag")),
 )
+PARTS = {"specific force": "acceleration", "angular rate": "angular rates"}
 MOST_NAMES = 12  # of columns in a sentence
 
 
@@ -46,6 +47,11 @@ class Columns:
         """Return the unit that the name of the column of ``role`` tells."""
         name = self.names.get(role)
         return None if name is None else name.unit
+
+    def foreign(self, role: str) -> ColumnName | None:
+        """Return the name of the column of ``role`` if it tells a unit that is not known."""
+        name = self.names.get(role)
+        return name if name is not None and name.foreign else None
 
 
 def read_names(dialect: Dialect, assumed: str = "") -> list[ColumnName]:
@@ -178,6 +184,11 @@ def _counter(names: Sequence[ColumnName], dialect: Dialect, layout: Layout) -> i
 
 def missing(path: Path, dialect: Dialect, columns: Columns, facts: Mapping[str, str]) -> str:
     """Return the sentence that names what a table lacks, and what it has."""
+    if not any(dialect.names):
+        return (
+            f"'{path}' has no line with the names of its {dialect.width} columns; give their "
+            "numbers, from 1, as in --columns time=1,ax=2,ay=3,az=4,gx=5,gy=6,gz=7"
+        )
     lacks = [
         word
         for word, roles in (
@@ -189,7 +200,10 @@ def missing(path: Path, dialect: Dialect, columns: Columns, facts: Mapping[str, 
     plain = [name.plain for name in read_names(dialect)]
     has = [word for word, pattern in PRESENT if any(pattern.search(text) for text in plain)]
     mode = next((value for key, value in facts.items() if "mode" in key.lower()), "")
-    held = " and ".join(has) + " only" if has else f"the columns {_listed(dialect)}"
+    in_part = any(PARTS[word] in has for word in lacks)  # two axes of a rate are no rate
+    held = (
+        " and ".join(has) + " only" if has and not in_part else f"the columns {_listed(dialect)}"
+    )
     return (
         f"'{path}'{f' (mode {mode})' if mode else ''} has no {' and no '.join(lacks)}: it holds "
         f"{held}; record or export the quantities of the sensor itself (acceleration with "
@@ -199,7 +213,7 @@ def missing(path: Path, dialect: Dialect, columns: Columns, facts: Mapping[str, 
 
 def _listed(dialect: Dialect) -> str:
     names = [f"'{name}'" for name in dialect.names if name][:MOST_NAMES]
-    return ", ".join(names) or "without names"
+    return ", ".join(names)
 
 
 def parse_columns(text: str) -> dict[str, str]:

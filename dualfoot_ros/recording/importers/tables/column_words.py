@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .table_layout import AXES
-from .unit_words import RAW, SIGNS, unit_of
+from .unit_words import RAW, SIGNS, foreign_unit, unit_of
 
 QUANTITIES = {
     "force": "acc accel accelerometer acceleration accelerometers acce accelero accelerations sf",
@@ -88,6 +88,7 @@ class ColumnName:
     unit : the unit that the name tells, or None
     words : what remains, such as the number of the device or "lowpass"
     free : whether gravity may be taken out, by its name
+    foreign : the unit that the name tells where it is one that is not known here
     """
 
     place: int
@@ -99,6 +100,7 @@ class ColumnName:
     unit: str | None
     words: tuple[str, ...]
     free: bool = False
+    foreign: str = ""
 
 
 def read_name(text: str, place: int, unit_row: str = "", assumed: str = "") -> ColumnName:
@@ -115,10 +117,12 @@ def read_name(text: str, place: int, unit_row: str = "", assumed: str = "") -> C
         kind, unit = _by_unit(unit_text or unit_row, assumed)
     if kind and unit is None and not unit_text:
         unit, left = _unit_at_end(kind, left)
+    foreign = "" if unit else foreign_unit(kind, unit_text or unit_row or "".join(left[-1:]))
     side = next((SIDES[token] for token in left if token in SIDES), "")
     words = tuple(t for t in left if t not in SIDES and t not in FILLERS and t not in PERHAPS_FREE)
     free = kind == "force" and bool(PERHAPS_FREE & set(tokens))
-    return ColumnName(place, text, " ".join(_tokens(body)), kind, axis, side, unit, words, free)
+    plain = " ".join(_tokens(body))
+    return ColumnName(place, text, plain, kind, axis, side, unit, words, free, foreign)
 
 
 def _split_unit(text: str) -> tuple[str, str]:

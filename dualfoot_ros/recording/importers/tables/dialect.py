@@ -59,7 +59,9 @@ class Dialect:
 def split(line: str, delimiter: str) -> list[str]:
     """Return the cells of a line."""
     if delimiter == " ":
-        return line.split()
+        if '"' not in line:
+            return line.split()
+        line = re.sub(r"[ \t]+", " ", line.strip())
     row = next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), [])
     return [cell.strip() for cell in row]
 

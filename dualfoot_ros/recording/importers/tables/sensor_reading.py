@@ -18,9 +18,9 @@ from ....core import (
 from ...unit_evidence import unit_evidence
 from .assumptions import Assumption, Origin
 from .column_choice import Columns, missing
-from .stamp_axis import Stamps, TimeSource, rate_in, stamps_of
+from .stamp_axis import Stamps, TimeSource, stamps_of
 from .stream_join import Stream, are_apart, join
-from .table_file import TableFile
+from .table_file import TableFile, rate_in
 from .table_layout import Layout
 from .unit_choice import WORDS, Told, force_unit, rate_unit, told_unit
 from .unit_words import ARBITRARY, FIELD_UNITS
@@ -94,7 +94,7 @@ def read_sensor_columns(
     apart = not increments and are_apart(cells.empty[:, :first], cells.empty[:, first:second])
     if apart:
         return _of_two_streams(table, columns, request, rows)
-    keep = _kept(cells.empty[:, :second], rows)
+    keep = _kept(cells.empty[:, :second], rows) & table.timed(columns.places.get("time"))
     dropped = _dropped(table, keep, rows, request.foot)
     stamps = stamps_of(time_source(table, columns, request.foot, keep))
     kept = values[keep]
@@ -296,7 +296,7 @@ def read_stream(
     if places is None:
         raise RecordingError(missing(table.path, table.dialect, columns, table.facts))
     cells = table.numbers(places)
-    keep = _kept(cells.empty, rows)
+    keep = _kept(cells.empty, rows) & table.timed(columns.places.get("time"))
     if int(keep.sum()) < LEAST_SAMPLES:
         raise RecordingError(f"'{table.path}' holds no sample of the {WORDS[quantity]}")
     stamps = stamps_of(time_source(table, columns, foot, keep))

@@ -6,8 +6,7 @@ is checked in the same way.  A time that a spreadsheet has rounded is rebuilt fr
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,9 +19,10 @@ from .unit_words import SAMPLES, TIME_UNITS
 LEAST_RATE, MOST_RATE = 8.0, 6000.0
 LIKELY_RATE = (10.0, 2000.0)  # Hz; units are a factor of 1000 apart, so one of them fits
 SAME_RATE = 1.1  # factor between the rate of the stamps and that of the header
+UNSORTED = 0.2  # of the steps; with more that go back the rows are in disorder
+USUAL_RATE = (45.0, 800.0)  # Hz; beyond it, a unit that only the values tell deserves a look
 REPEATED = 0.2  # of the stamps; with more equal ones the time was rounded
 RATE_ERROR = 1e-3  # of the rate, where it is found from a time that was rounded
-RATE_KEYS = ("rate", "frequency", "fs", "frequenz")
 
 
 @dataclass(frozen=True)
@@ -67,16 +67,6 @@ class Stamps:
     rate_hz: float | None = None
 
 
-def rate_in(facts: Mapping[str, str]) -> float | None:
-    """Return the sampling rate, in Hz, that the header tells, or None."""
-    for key, value in facts.items():
-        if any(re.search(rf"{word}\b", key, re.I) for word in RATE_KEYS):
-            match = re.match(r"\s*(\d+(?:\.\d+)?)\s*(?:hz|sps)?\s*$", value, re.I)
-            if match and float(match[1]) > 0.0:
-                return float(match[1])
-    return None
-
-
 def stamps_of(source: TimeSource) -> Stamps:
     """Return the stamps of the samples.
 
@@ -88,6 +78,7 @@ def stamps_of(source: TimeSource) -> Stamps:
     values = source.values
     if values is None or source.unit == SAMPLES or not np.isfinite(values).any():
         return _from_counts(source)
+    _check_order(source, values)
     unit, origin = _unit(source, values)
     if unit is None:
         return _from_counts(source)
@@ -96,9 +87,25 @@ def stamps_of(source: TimeSource) -> Stamps:
         return _rebuilt(source, stamps)
     if _disagrees(source, stamps):
         return _from_counts(source)
-    _check_rate(source, stamps, unit)
-    assumption = Assumption(source.foot, "time", f"{source.name}, in {unit}", origin)
-    return Stamps(stamps, assumption, unit)
+    rate_hz = _check_rate(source, stamps, unit)
+    usual = USUAL_RATE[0] <= rate_hz <= USUAL_RATE[1]
+    doubtful = origin is Origin.VALUES and not usual
+    value = f"{source.name}, in {unit}"
+    if doubtful:
+        value += f", which gives {rate_hz:.4g} Hz; if that is wrong, give --time-unit"
+    return Stamps(stamps, Assumption(source.foot, "time", value, origin, doubtful), unit)
+
+
+def _check_order(source: TimeSource, values: FloatArray) -> None:
+    """Refuse rows in disorder; a counter that wraps goes back now and then only."""
+    steps = np.diff(values[np.isfinite(values)])
+    back = int((steps < 0.0).sum())
+    if len(steps) > 1 and back > UNSORTED * len(steps):
+        raise RecordingError(
+            f"'{source.path}': the time in column '{source.name}' goes back in {back} of "
+            f"{len(steps)} steps; sort the rows by time, or give another column with --columns "
+            "time=NAME, or the sampling rate with --rate HZ"
+        )
 
 
 def _disagrees(source: TimeSource, stamps: IntArray) -> bool:
@@ -153,10 +160,13 @@ def _to_ns(source: TimeSource, values: FloatArray, size: float) -> IntArray:
     if source.wrap_bits and np.all(np.abs(values) < 2.0**source.wrap_bits):
         counts = _unwrapped(np.rint(values), source.wrap_bits)
         return counts * np.int64(round(size * 1e9))
-    if not np.all(np.abs(values * size) < float(2**33)):
+    beyond = np.flatnonzero(~(np.abs(values * size) < float(2**33)))
+    if len(beyond):
+        few = len(beyond) < REPEATED * len(values)
         raise RecordingError(
-            f"'{source.path}': the time in column '{source.name}' is out of range (up to "
-            f"{float(np.nanmax(np.abs(values))):.6g}); give --time-unit"
+            f"'{source.path}': the time in column '{source.name}' is out of range "
+            f"({values[beyond[0]]:.6g} in sample {beyond[0] + 1}, {len(beyond)} of {len(values)} "
+            f"samples); {'remove these rows' if few else 'give --time-unit'}"
         )
     whole = np.floor(values * size)
     rest = np.where(np.isfinite(values), values * size - whole, 0.0)
@@ -178,7 +188,8 @@ def _is_rounded(stamps: IntArray) -> bool:
     return len(steps) > 1 and float((steps == 0).mean()) > REPEATED
 
 
-def _check_rate(source: TimeSource, stamps: IntArray, unit: str) -> None:
+def _check_rate(source: TimeSource, stamps: IntArray, unit: str) -> float:
+    """Return the sampling rate, Hz, if it can be one."""
     steps = np.diff(stamps)
     steps = steps[steps > 0]
     if not len(steps):
@@ -198,6 +209,7 @@ def _check_rate(source: TimeSource, stamps: IntArray, unit: str) -> None:
             f"'{source.path}': the time in column '{source.name}' in {unit} means {rate:.4g} Hz, "
             f"which cannot be{hint}; give the unit with --time-unit"
         )
+    return rate
 
 
 def _from_counts(source: TimeSource) -> Stamps:

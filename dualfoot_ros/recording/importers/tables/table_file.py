@@ -18,6 +18,7 @@ from .known_layouts import recognise
 from .raw_text import RawText, read_text
 from .table_layout import Layout
 
+RATE_KEYS = ("rate", "frequency", "fs", "frequenz")
 CLOCK = re.compile(r"(?:(\d+)[:])?(\d{1,2}):(\d{1,2}(?:[.,]\d+)?)")
 
 
@@ -31,6 +32,7 @@ class TableFile:
     facts : key and value of the lines before the names
     layout : what the user gave, over the known layout, if it is one
     given, known : the two apart
+    recognised : whether the table itself told its known layout
     """
 
     path: Path
@@ -40,6 +42,7 @@ class TableFile:
     facts: Mapping[str, str]
     given: Layout
     known: Layout | None
+    recognised: bool = False
     _read: dict[int, tuple[FloatArray, BoolArray]] = field(default_factory=dict, repr=False)
 
     @property
@@ -61,6 +64,13 @@ class TableFile:
         """Return whether a column holds numbers that a float holds exactly enough."""
         cells = [row[place] for row in self.dialect.sample]
         return any(is_number(cell, self.dialect.decimal) for cell in cells) and not is_exact(cells)
+
+    def timed(self, place: int | None) -> BoolArray:
+        """Return which rows have a time in ``place``; all, where none has or it is no number."""
+        if place is None or not self.holds_numbers(place):
+            return np.asarray(True)
+        known = ~np.isnan(self.numbers([place]).numbers[:, 0])
+        return known if known.any() else np.asarray(True)
 
     def words(self, place: int) -> list[str]:
         """Return N cells as text."""
@@ -92,9 +102,9 @@ class TableFile:
         found = [Assumption(foot, "text", f"{self.path.name}: {text}", told)]
         layout = self.known
         if layout is not None:
-            found.append(
-                Assumption(foot, "layout", f"{layout.name} ({layout.about})", Origin.NAME)
-            )
+            about = f" ({layout.about})" if layout.about else " (of a layout file)"
+            origin = Origin.NAME if self.recognised else Origin.OPTION
+            found.append(Assumption(foot, "layout", f"{layout.name}{about}", origin))
         if self.body.dropped:
             dropped = f"left out, it was cut: '{self.body.dropped[:40]}'"
             found.append(Assumption(foot, "last row", dropped, Origin.VALUES, doubtful=True))
@@ -113,6 +123,7 @@ def open_table(path: Path, given: Layout, known: Layout | None = None) -> TableF
     """
     raw = read_text(path)
     dialect = find_dialect(raw, given.over(known or Layout()))
+    told = known is not None
     if known is None:
         plain = [read_name(name, k).plain for k, name in enumerate(dialect.names)]
         known = recognise(plain, dialect.preamble)
@@ -124,6 +135,7 @@ def open_table(path: Path, given: Layout, known: Layout | None = None) -> TableF
         header_facts(dialect.preamble, dialect.delimiter),
         given,
         known,
+        recognised=not told,
     )
 
 
@@ -145,6 +157,16 @@ def header_facts(lines: Sequence[str], delimiter: str) -> dict[str, str]:
         if match:
             facts.setdefault(match[1], match[2])
     return facts
+
+
+def rate_in(facts: Mapping[str, str]) -> float | None:
+    """Return the sampling rate, in Hz, that the header tells, or None."""
+    for key, value in facts.items():
+        if any(re.search(rf"{word}\b", key, re.I) for word in RATE_KEYS):
+            match = re.match(r"\s*(\d+(?:\.\d+)?)\s*(?:hz|sps)?\s*$", value, re.I)
+            if match and float(match[1]) > 0.0:
+                return float(match[1])
+    return None
 
 
 def _from_dates(words: Sequence[str], path: Path, name: str) -> tuple[FloatArray, IntArray | None]:

@@ -77,14 +77,18 @@ class Layout:
     increments: Increments | None = None
     remark: str = ""
 
-    def over(self, base: Layout) -> Layout:
-        """Return ``base`` with everything that this one says in place of what that says."""
+    def told(self) -> dict[str, Any]:
+        """Return the fields that say something, by name."""
         default = Layout()
-        said: dict[str, Any] = {
+        return {
             item.name: getattr(self, item.name)
             for item in fields(self)
             if getattr(self, item.name) != getattr(default, item.name)
         }
+
+    def over(self, base: Layout) -> Layout:
+        """Return ``base`` with everything that this one says in place of what that says."""
+        said = self.told()
         said["columns"] = {**base.columns, **self.columns}
         return Layout(
             **{item.name: said.get(item.name, getattr(base, item.name)) for item in fields(base)}

@@ -14,9 +14,10 @@ from ...unit_evidence import UnitEvidence
 from .assumptions import Assumption, Origin
 from .column_choice import Columns
 from .table_layout import VECTORS, Layout
-from .unit_words import RAW
+from .unit_words import RAW, SIZES
 
 NO_GRAVITY = 0.35  # of gravity: a force that stays below has gravity taken out
+NEAR_GRAVITY = 0.015  # of it; cm/s^2, which is 2 % from mg, is beyond, and so are few sensors
 WORDS = {"force": "specific force", "rate": "angular rate", "field": "magnetic field"}
 
 
@@ -36,7 +37,7 @@ def told_unit(
     Raises
     ------
     RecordingError
-        When the columns of the axes are in different units, or raw counts.
+        When the columns of the axes are in different units, unknown ones, or raw counts.
     """
     option = getattr(given, f"{quantity}_unit")
     if option is not None:
@@ -54,6 +55,13 @@ def told_unit(
         )
     if units:
         return Told(units.pop(), Origin.NAME)
+    foreign = [name.text for role in VECTORS[quantity] if (name := columns.foreign(role))]
+    if foreign:
+        raise RecordingError(
+            f"'{path}': column '{foreign[0]}' is in a unit that is not known here; allowed is "
+            f"{', '.join(SIZES[quantity])}, so convert the columns of the {WORDS[quantity]}, or "
+            f"give --{quantity}-unit to say that the name is wrong"
+        )
     layout = None if known is None else getattr(known, f"{quantity}_unit")
     return Told(layout, Origin.LAYOUT)
 
@@ -74,7 +82,9 @@ def force_unit(path: Path, foot: str, told: Told, evidence: UnitEvidence) -> Ass
                 f"'{path}': no unit of the specific force is told, and none fits gravity "
                 f"({reading}); {_gravity_hint(evidence)}"
             )
-        return Assumption(foot, WORDS["force"], f"{likely} ({reading})", Origin.MOTION)
+        off = abs(evidence.gravity * FORCE_UNITS[likely] / STANDARD_GRAVITY - 1.0)
+        value, doubtful = f"{likely} ({reading})", evidence.quiet and off > NEAR_GRAVITY
+        return Assumption(foot, WORDS["force"], value, Origin.MOTION, doubtful)
     if told.origin is not Origin.OPTION and _lacks_gravity(evidence, FORCE_UNITS[told.unit]):
         raise RecordingError(
             f"'{path}': the specific force in {told.unit} (by {told.origin}) {reading[3:]}, so "
@@ -89,6 +99,12 @@ def force_unit(path: Path, foot: str, told: Told, evidence: UnitEvidence) -> Ass
             f"{told.unit} to insist"
         )
     doubtful = not evidence.force_fits(FORCE_UNITS[told.unit])
+    if doubtful and evidence.quiet and told.origin is not Origin.OPTION:
+        raise RecordingError(
+            f"'{path}': the specific force should be in {told.unit} (by {told.origin}), but "
+            f"{reading}, which is gravity in no known unit; are these raw counts? Export "
+            f"calibrated values, or give --force-unit {told.unit} to insist"
+        )
     value = f"{told.unit} ({reading})"
     return Assumption(foot, WORDS["force"], value, told.origin, doubtful)
 

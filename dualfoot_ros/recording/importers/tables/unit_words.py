@@ -42,6 +42,11 @@ _TIME = {
     SAMPLES: "samples sample",
 }
 _RAW = frozenset({"lsb", "raw", "adc", "counts", "count", "digits"})
+_FOREIGN = {
+    "force": "cm/s^2 cm/s2 cms2 cm/s/s mm/s^2 mm/s2 mms2 ft/s^2 ft/s2 fts2 in/s^2 gal mgal ug",
+    "rate": "rpm rps rev/s rev/min cps mrad/s mrads urad/s deg/h deg/hr deg/min udps rad/min",
+}
+_PER_TIME = re.compile(r"[a-z]+/(?:s|sec|min|h|hr)(?:\^?2|/s)?")
 _KINDS = {"force": _FORCE, "rate": _RATE, "field": _FIELD, "time": _TIME}
 WORDS = {
     kind: {word: unit for unit, words in units.items() for word in words.split()}
@@ -60,9 +65,19 @@ def unit_of(kind: str, text: str) -> str | None:
     return known.get(plain) or known.get(plain.replace("_", "/"))
 
 
+def foreign_unit(kind: str, text: str) -> str:
+    """Return ``text`` where it spells a unit of force or rate that is unknown here, or ""."""
+    plain = _plain(text)
+    if kind not in _FOREIGN or unit_of(kind, text):
+        return ""
+    spelled = plain in _FOREIGN[kind].split() or _PER_TIME.fullmatch(plain)
+    return text.strip() if spelled else ""
+
+
 def is_unit(text: str) -> bool:
     """Return whether ``text`` spells a unit of any kind."""
-    return any(unit_of(kind, text) for kind in WORDS) or _plain(text) in OTHER_UNITS
+    known = any(unit_of(kind, text) or foreign_unit(kind, text) for kind in WORDS)
+    return known or _plain(text) in OTHER_UNITS
 
 
 OTHER_UNITS = {

@@ -248,7 +248,7 @@ def test_a_table_without_names_is_read_by_numbers_of_columns(tmp_path):
         return plain(series).split("\n", 1)[1]
 
     options = files(tmp_path, walk(), bare)
-    with pytest.raises(RecordingError, match="without names"):
+    with pytest.raises(RecordingError, match="no line with the names of its 7 columns"):
         import_recording(options)
     roles = dict(zip(("time", "ax", "ay", "az", "gx", "gy", "gz"), "1234567", strict=True))
     found = import_recording(

@@ -5,7 +5,7 @@ from pathlib import Path
 from setuptools import find_packages, setup
 
 NAME = "dualfoot_ros"
-NODES = ["bringup", "fusion", "imu_adapter", "replay", "time_sync"]
+NODES = ["bringup", "fusion", "imu_adapter", "live_page", "replay", "time_sync"]
 
 
 def files(folder: str, pattern: str) -> list[str]:
@@ -28,6 +28,7 @@ setup(
     package_data={
         f"{NAME}.config": ["*.yaml", "nodes/*.yaml", "paper_noise/*.yaml", "rviz/*.rviz"],
         f"{NAME}.evaluation.reports.html": ["*.css", "*.js"],
+        f"{NAME}.nodes.page": ["*.css", "*.js"],
         NAME: ["py.typed"],
     },
     data_files=[

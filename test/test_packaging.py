@@ -15,7 +15,7 @@ import pytest
 import yaml
 
 ROOT = Path(__file__).resolve().parents[1]
-EXECUTABLES = {"bringup", "fusion", "imu_adapter", "replay", "time_sync"}
+EXECUTABLES = {"bringup", "fusion", "imu_adapter", "live_page", "replay", "time_sync"}
 
 
 @pytest.fixture(scope="module")

@@ -161,7 +161,7 @@ const plots = (() => {
         const { x, y } = this.full;
         const wanted = (width - 56) * (y[1] - y[0]) / (x[1] - x[0]) + 40;
         height = Math.round(Math.min(Math.max(wanted, 240), Math.min(620, width * 1.15)));
-        if (this.spec.tall) height = Math.round(Math.min(620, width * this.spec.tall));
+        if (this.spec.tall) height = Math.round(Math.min(620, width * (width < 500 ? 1 : this.spec.tall)));
       }
       return { width, height };
     }

@@ -26,7 +26,13 @@ setup(
     packages=[*find_packages(include=[NAME, f"{NAME}.*"]), f"{NAME}.config"],
     package_dir={f"{NAME}.config": "config"},
     package_data={
-        f"{NAME}.config": ["*.yaml", "nodes/*.yaml", "paper_noise/*.yaml", "rviz/*.rviz"],
+        f"{NAME}.config": [
+            "*.yaml",
+            "nodes/*.yaml",
+            "paper_noise/*.yaml",
+            "rviz/*.rviz",
+            "foxglove/*.json",
+        ],
         f"{NAME}.evaluation.reports.html": ["*.css", "*.js"],
         f"{NAME}.nodes.page": ["*.css", "*.js"],
         NAME: ["py.typed"],
@@ -36,9 +42,10 @@ setup(
         (f"share/{NAME}", ["package.xml"]),
         (f"share/{NAME}/config", files("config", "*.yaml")),
         (f"share/{NAME}/config/nodes", files("config/nodes", "*.yaml")),
+        (f"share/{NAME}/config/foxglove", files("config/foxglove", "*.json")),
         (f"share/{NAME}/config/rviz", files("config/rviz", "*.rviz")),
         (f"share/{NAME}/config/paper_noise", files("config/paper_noise", "*.yaml")),
-        (f"share/{NAME}/launch", files("launch", "*.launch.py")),
+        (f"share/{NAME}/launch", files("launch", "*.launch.*")),
     ],
     zip_safe=False,
     install_requires=[

@@ -26,7 +26,7 @@ VERBS = {
     "evaluate": "evaluate",
     "compare": "compare",
     "consistency": "consistency",
-    "live": "live_page",
+    "live": "live",
 }
 EXIT_BAD_INPUT = 2
 EXIT_BROKEN_PIPE = 141

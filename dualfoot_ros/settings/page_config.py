@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..core import Parameters, parameter
 
 LOOPBACK = "127.0.0.1"
-PAGE_PORT = 8765
+PAGE_PORT = 8770
 
 
 @dataclass(frozen=True)

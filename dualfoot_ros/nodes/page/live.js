@@ -130,7 +130,7 @@
     for (const w of now.warnings || []) found.push(["warning", `${w.node}: ${w.text}`]);
     if (now.phase === "aligning") found.push(["warning", "The feet are being aligned: stand still."]);
     else if (now.silent) found.push(["warning", "Nothing arrives: " + now.silent + "."]);
-    if (now.trust && now.person) {
+    if (now.trust && now.person && !now.silent) {
       const text = now.trust.text;
       found.push([now.trust.trusted ? "good" : "warning", text[0].toUpperCase() + text.slice(1) + "."]);
     }

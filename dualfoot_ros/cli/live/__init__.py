@@ -8,8 +8,8 @@ import sys
 from collections.abc import Iterator
 from importlib.util import find_spec
 
-from ..core import ConfigError
-from ..settings import LOOPBACK, PAGE_PORT
+from ...core import ConfigError
+from ...settings import LOOPBACK, PAGE_PORT
 
 HELP = "a page in the browser that shows a walk while the nodes track it"
 EXAMPLES = f"""\

@@ -236,3 +236,32 @@ def test_a_python_without_venv_names_the_package_to_install(tmp_path):
     )
     assert done.returncode == 2
     assert "apt install python3.12-venv" in done.stderr
+
+
+def run_get_browser(folder, *programs):
+    """Run scripts/get_browser where there are only these programs; each only says its name."""
+    for name in programs:
+        path = folder / name
+        path.write_text(f"#!/bin/sh\necho {name} $*\n")
+        path.chmod(0o755)
+    return subprocess.run(
+        ["/bin/sh", ROOT / "scripts" / "get_browser"],
+        env={"PATH": str(folder)},
+        check=False,
+        capture_output=True,
+        text=True,
+    )
+
+
+def test_a_browser_that_is_there_is_not_installed_again(tmp_path):
+    done = run_get_browser(tmp_path, "chromium", "chromedriver", "apt-get")
+    assert (done.returncode, done.stdout) == (0, "")
+
+
+def test_where_no_browser_can_be_installed_a_sentence_says_what_to_do(tmp_path):
+    done = run_get_browser(tmp_path, "chromium")
+    assert done.returncode == 1
+    assert "install chromium and chromedriver" in done.stderr
+    done = run_get_browser(tmp_path, "apt-get", "id")  # whose answer is no number of root
+    assert done.returncode == 1
+    assert "only root can install" in done.stderr

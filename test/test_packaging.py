@@ -185,6 +185,13 @@ def test_an_installed_executable_runs(installed):
     assert "left|right/odometry" in done.stdout
 
 
+def test_the_installed_pages_have_their_scripts_and_styles_without_ros(installed):
+    names = "from dualfoot_ros.nodes.page.page_document import live_page"
+    code = f"import sys; {names}; print('EventSource' in live_page(), 'rclpy' in sys.modules)"
+    done = run_installed(installed, sys.executable, "-c", code)
+    assert done.stdout.split() == ["True", "False"], done.stderr
+
+
 @pytest.mark.parametrize("prefix", ["", "share of nothing", "here"])
 def test_presets_are_found_with_and_without_the_ament_index(installed, prefix):
     ament = {"AMENT_PREFIX_PATH": str(installed) if prefix == "here" else prefix}

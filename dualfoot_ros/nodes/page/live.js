@@ -7,7 +7,7 @@
   const PATIENCE_MS = 3000; // without a message: the program has ended, or the way to it is broken
   const trails = {}; // name -> places [t, x, y, z]
   const byId = (id) => document.getElementById(id);
-  let now = {}, heard = 0, source = null;
+  let now = {}, heard = 0, source = null, times = 0;
 
   // ---- plots ----------------------------------------------------------------------------------
   const dots = (foot) => ({ table: foot, x: "x", y: "y", style: "dots", name: foot + " foot",
@@ -43,10 +43,13 @@
     tables.now = { x: p ? [p.x] : [], y: p ? [p.y] : [], major: axis(p && p.major),
       minor: axis(p && p.minor), angle: p ? [p.angle] : [] };
     if (p) { // the newest place ends the line
-      for (const key of ["x", "y"]) tables.person[key] = Float64Array.of(...tables.person[key], p[key]);
+      for (const key of ["x", "y"]) {
+        tables.person[key] = Float64Array.of(...tables.person[key], p[key]);
+      }
     }
     specs.map.marks = FEET.filter((foot) => now[foot]).map((foot) => ({ x: now[foot].x,
-      y: now[foot].y, angle: now[foot].heading, symbol: "foot", color: COLOURS[foot] }));
+      y: now[foot].y, angle: now[foot].heading, symbol: "foot", color: COLOURS[foot],
+      opacity: ((now.feet || {})[foot] || {}).state === "tracking" ? 1 : 0.35 }));
     if (p) specs.map.marks.push({ x: p.x, y: p.y, angle: p.heading, symbol: "arrow", label: "" });
   }
 
@@ -82,7 +85,7 @@
   }
 
   function direction(p) {
-    if (p.heading_std > 45) return "not known yet";
+    if (p.heading_std > 45) return "not known";
     return `${Math.round(p.heading)}° ± ${number(p.heading_std, 1)}°`;
   }
 
@@ -111,13 +114,14 @@
       cells[2].textContent = measure(f.rate, 0, "Hz");
       const known = typeof f.lost === "number";
       const share = known && f.received + f.lost ? 100 * f.lost / (f.received + f.lost) : 0;
-      cells[3].textContent = known ? `${f.lost} (${number(share, share && share < 10 ? 1 : 0)}\u00a0%)` : "–";
+      const percent = number(share, share && share < 10 ? 1 : 0) + "\u00a0%";
+      cells[3].textContent = known ? `${f.lost} (${percent})` : "–";
       cells[4].textContent = measure(f.battery, 0, "%");
     }
     const s = now.step;
+    const pace = s && s.duration ? `, ${number(60 / s.duration, 0)} steps a minute` : "";
     byId("step").textContent = s ? `Last step: ${s.foot}, ${number(s.length, 2)} m long, `
-      + `${number(s.width, 2)} m wide` + (s.duration ? `, ${number(60 / s.duration, 0)} steps a minute` : "")
-      : "";
+      + `${number(s.width, 2)} m wide${pace}` : "";
   }
 
   function sentences() {
@@ -128,11 +132,13 @@
       return found;
     }
     for (const w of now.warnings || []) found.push(["warning", `${w.node}: ${w.text}`]);
-    if (now.phase === "aligning") found.push(["warning", "The feet are being aligned: stand still."]);
-    else if (now.silent) found.push(["warning", "Nothing arrives: " + now.silent + "."]);
+    if (now.phase === "aligning") {
+      found.push(["warning", "The feet are being aligned: stand still."]);
+    } else if (now.silent) found.push(["warning", "Nothing arrives: " + now.silent + "."]);
     if (now.trust && now.person && !now.silent) {
       const text = now.trust.text;
-      found.push([now.trust.trusted ? "good" : "warning", text[0].toUpperCase() + text.slice(1) + "."]);
+      const sentence = text[0].toUpperCase() + text.slice(1) + ".";
+      found.push([now.trust.trusted ? "good" : "warning", sentence]);
     }
     return found;
   }
@@ -146,7 +152,8 @@
     if (!same) list.replaceChildren(...items);
     const link = byId("link");
     if (!alive()) pill(link, "not connected", "bad");
-    else if (now.silent || !now.person) pill(link, now.phase || "nothing arrives", now.phase ? "wait" : "bad");
+    else if (now.silent && now.phase !== "aligning") pill(link, "nothing arrives", "bad");
+    else if (!now.person) pill(link, now.phase || "nothing arrives", now.phase ? "wait" : "bad");
     else pill(link, now.phase || "live", "good");
     const parts = [];
     if (now.method) parts.push("method " + now.method);
@@ -164,7 +171,8 @@
     showFeet();
     showWords();
     for (const chart of charts) chart.refresh();
-    document.documentElement.dataset.shown = String(Number(document.documentElement.dataset.shown || 0) + 1);
+    times += 1;
+    document.documentElement.dataset.shown = String(times);
   }
 
   // ---- the connection ---------------------------------------------------------------------------
@@ -185,7 +193,7 @@
   connect();
   setInterval(() => {
     showWords();
-    if (source.readyState === EventSource.CLOSED) connect(); // it was refused, as when all places are taken
+    if (source.readyState === EventSource.CLOSED) connect(); // refused, as when places are taken
   }, 1000);
   document.addEventListener("visibilitychange", () => { if (!document.hidden) show(); });
 })();

@@ -13,6 +13,8 @@ from launch_ros.actions import Node
 
 from .graph_plan import ARGUMENTS, PLANS, NodeStart, Start
 
+PUSHED = "ros_namespace"  # where PushRosNamespace keeps it
+
 
 def describe(name: str) -> LaunchDescription:
     """Return what the launch file ``name`` declares, and does with its arguments."""
@@ -24,7 +26,10 @@ def describe(name: str) -> LaunchDescription:
 
 
 def _start(context: LaunchContext, *, name: str) -> list[Any]:
-    given = {each: context.launch_configurations[each] for each in ARGUMENTS[name]}
+    values = context.launch_configurations
+    given = {each: values[each] for each in ARGUMENTS[name]}
+    around = values.get(PUSHED, "")  # pushed by a launch file around this one
+    given["namespace"] = f"{around}/{given['namespace']}".replace("//", "/").strip("/")
     return [_action(start) for start in PLANS[name](given)]
 
 
@@ -35,7 +40,7 @@ def _action(start: Start) -> Any:
     return Node(
         package=start.package,
         executable=start.executable,
-        namespace=start.namespace,
+        namespace=f"/{start.namespace}",
         parameters=parameters,
         arguments=list(start.arguments),
         output="screen",

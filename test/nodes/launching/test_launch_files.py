@@ -63,13 +63,13 @@ def described(name):
     return module.generate_launch_description().args[0]
 
 
-def run(launch, name, **given):
-    """Return what a launch file starts with arguments."""
+def run(launch, name, pushed="", **given):
+    """Return what a launch file starts with arguments, below a namespace that was pushed."""
     *declared, function = described(name)
     values = {each.args[0]: each.keywords["default_value"] for each in declared}
     assert set(given) <= set(values)
     context = launch.LaunchContext()
-    context.launch_configurations = values | given
+    context.launch_configurations = {**values, **given, "ros_namespace": pushed}
     return function.keywords["function"](context)
 
 
@@ -87,13 +87,22 @@ def test_arguments_become_nodes_with_parameter_files(launch):
     actions = run(launch, "dualfoot", namespace="anna", method="idc", bag="walk", record="out")
     nodes = {a.keywords["executable"]: a.keywords for a in actions if isinstance(a, launch.Node)}
     assert set(nodes) == {"replay", "time_sync", "fusion"}
-    assert {each["namespace"] for each in nodes.values()} == {"anna"}
+    assert {each["namespace"] for each in nodes.values()} == {"/anna"}
     assert {each["package"] for each in nodes.values()} == {"dualfoot_ros"}
     (own,) = nodes["fusion"]["parameters"]
     content = yaml.safe_load(Path(own).read_text())
     assert content["/anna/fusion"]["ros__parameters"]["method"] == "idc"
     (record,) = [a for a in actions if isinstance(a, launch.ExecuteProcess)]
     assert record.keywords["cmd"][:3] == ["ros2", "bag", "record"]
+
+
+def test_a_namespace_around_the_launch_file_reaches_nodes_and_parameters(launch):
+    (bringup,) = run(launch, "bringup", pushed="/team", namespace="anna", method="idc")
+    assert bringup.keywords["namespace"] == "/team/anna"
+    content = yaml.safe_load(Path(bringup.keywords["parameters"][0]).read_text())
+    assert content["/team/anna/fusion"]["ros__parameters"]["method"] == "idc"
+    (alone,) = run(launch, "bringup")
+    assert alone.keywords["namespace"] == "/" and alone.keywords["parameters"] == []
 
 
 def test_bringup_is_one_process_and_its_page_another(launch):

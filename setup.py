@@ -5,7 +5,7 @@ from pathlib import Path
 from setuptools import find_packages, setup
 
 NAME = "dualfoot_ros"
-NODES = ["bringup", "fusion", "imu_adapter", "replay", "time_sync"]
+NODES = ["bringup", "fusion", "imu_adapter", "live_page", "replay", "time_sync"]
 
 
 def files(folder: str, pattern: str) -> list[str]:
@@ -32,8 +32,10 @@ setup(
             "paper_noise/*.yaml",
             "rviz/*.rviz",
             "security/*.xml",
+            "foxglove/*.json",
         ],
         f"{NAME}.evaluation.reports.html": ["*.css", "*.js"],
+        f"{NAME}.nodes.page": ["*.css", "*.js"],
         NAME: ["py.typed"],
     },
     data_files=[
@@ -41,10 +43,11 @@ setup(
         (f"share/{NAME}", ["package.xml"]),
         (f"share/{NAME}/config", files("config", "*.yaml")),
         (f"share/{NAME}/config/nodes", files("config/nodes", "*.yaml")),
+        (f"share/{NAME}/config/foxglove", files("config/foxglove", "*.json")),
         (f"share/{NAME}/config/rviz", files("config/rviz", "*.rviz")),
         (f"share/{NAME}/config/security", files("config/security", "*.xml")),
         (f"share/{NAME}/config/paper_noise", files("config/paper_noise", "*.yaml")),
-        (f"share/{NAME}/launch", files("launch", "*.launch.py")),
+        (f"share/{NAME}/launch", files("launch", "*.launch.*")),
     ],
     zip_safe=False,
     install_requires=[

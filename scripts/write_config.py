@@ -43,6 +43,7 @@ SECTIONS = {
     "/**/time_sync": "time_sync",
     "/**/fusion": "fusion",
     "/**/replay": "replay",
+    "/**/live_page": "live_page",
 }
 
 

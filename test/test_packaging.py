@@ -15,7 +15,7 @@ import pytest
 import yaml
 
 ROOT = Path(__file__).resolve().parents[1]
-EXECUTABLES = {"bringup", "fusion", "imu_adapter", "replay", "time_sync"}
+EXECUTABLES = {"bringup", "fusion", "imu_adapter", "live_page", "replay", "time_sync"}
 
 
 @pytest.fixture(scope="module")
@@ -104,7 +104,6 @@ def test_every_import_outside_of_ros_is_declared_for_pip(setup_arguments):
 
 
 def test_the_citation_names_this_version(manifest):
-    import yaml
 
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert citation["version"] == manifest.findtext("version")
@@ -114,7 +113,6 @@ def test_the_citation_names_this_version(manifest):
 
 
 def test_every_page_of_the_documentation_is_in_the_site():
-    import yaml
 
     nav = yaml.safe_load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))["nav"]
     listed = set(re.findall(r"[\w/]+\.md", str(nav)))
@@ -165,7 +163,7 @@ def test_installed_share_has_marker_manifest_presets_and_launch_file(installed):
     share = installed / "share"
     assert (share / "ament_index/resource_index/packages/dualfoot_ros").is_file()
     assert (share / "dualfoot_ros/package.xml").is_file()
-    for folder in ("config", "config/nodes", "config/rviz", "launch"):
+    for folder in ("config", "config/nodes", "config/rviz", "config/foxglove", "launch"):
         names = {path.name for path in (ROOT / folder).iterdir() if path.is_file()}
         assert {
             p.name for p in (share / "dualfoot_ros" / folder).iterdir() if p.is_file()
@@ -185,6 +183,13 @@ def test_an_installed_executable_runs(installed):
     done = run_installed(installed, str(installed / "lib/dualfoot_ros/fusion"), "--help")
     assert done.returncode == 0, done.stderr
     assert "left|right/odometry" in done.stdout
+
+
+def test_the_installed_pages_have_their_scripts_and_styles_without_ros(installed):
+    names = "from dualfoot_ros.nodes.page.page_document import live_page"
+    code = f"import sys; {names}; print('EventSource' in live_page(), 'rclpy' in sys.modules)"
+    done = run_installed(installed, sys.executable, "-c", code)
+    assert done.stdout.split() == ["True", "False"], done.stderr
 
 
 @pytest.mark.parametrize("prefix", ["", "share of nothing", "here"])
@@ -240,11 +245,30 @@ def test_a_python_without_venv_names_the_package_to_install(tmp_path):
     assert "apt install python3.12-venv" in done.stderr
 
 
-def test_the_display_of_rviz_shows_topics_that_fusion_publishes():
-    text = (ROOT / "config" / "rviz" / "dualfoot.rviz").read_text(encoding="utf-8")
-    manager = yaml.safe_load(text)["Visualization Manager"]
-    shown = {d["Topic"]["Value"] for d in manager["Displays"] if "Topic" in d}
-    page = (ROOT / "docs" / "reference" / "topics_and_frames.md").read_text(encoding="utf-8")
-    assert {"path", "left/path", "markers", "odometry/smoothed"} <= shown
-    assert [topic for topic in shown if f"`{topic}`" not in page] == []
-    assert manager["Global Options"]["Fixed Frame"] == "odom"
+def run_get_browser(folder, *programs):
+    """Run scripts/get_browser where there are only these programs; each only says its name."""
+    for name in programs:
+        path = folder / name
+        path.write_text(f"#!/bin/sh\necho {name} $*\n")
+        path.chmod(0o755)
+    return subprocess.run(
+        ["/bin/sh", ROOT / "scripts" / "get_browser"],
+        env={"PATH": str(folder)},
+        check=False,
+        capture_output=True,
+        text=True,
+    )
+
+
+def test_a_browser_that_is_there_is_not_installed_again(tmp_path):
+    done = run_get_browser(tmp_path, "chromium", "chromedriver", "apt-get")
+    assert (done.returncode, done.stdout) == (0, "")
+
+
+def test_where_no_browser_can_be_installed_a_sentence_says_what_to_do(tmp_path):
+    done = run_get_browser(tmp_path, "chromium")
+    assert done.returncode == 1
+    assert "install chromium and chromedriver" in done.stderr
+    done = run_get_browser(tmp_path, "apt-get", "id")  # whose answer is no number of root
+    assert done.returncode == 1
+    assert "only root can install" in done.stderr

@@ -26,6 +26,7 @@ VERBS = {
     "evaluate": "evaluate",
     "compare": "compare",
     "consistency": "consistency",
+    "live": "live",
 }
 EXIT_BAD_INPUT = 2
 EXIT_BROKEN_PIPE = 141
@@ -37,6 +38,7 @@ examples:
   dualfoot evaluate walk -o report          both tracks, their errors, plots
   dualfoot compare walk                     every method on it, one table
   dualfoot import walk.mat -o walk          a sensor's export, as a bag
+  dualfoot live --open                      a page that shows what the nodes publish now
   dualfoot VERB --help                      the options of one verb, with examples
 """
 

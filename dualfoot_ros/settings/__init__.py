@@ -19,6 +19,7 @@ from .nodes import (
     node_parameter_names,
     node_specs,
 )
+from .page_config import LOOPBACK, PAGE_PORT, PageConfig
 from .presets import (
     find_config,
     load_config,
@@ -29,6 +30,8 @@ from .presets import (
 
 __all__ = [
     "LIVE",
+    "LOOPBACK",
+    "PAGE_PORT",
     "AdapterConfig",
     "BringupConfig",
     "CovarianceConfig",
@@ -36,6 +39,7 @@ __all__ = [
     "FusionConfig",
     "InputConfig",
     "KindConfig",
+    "PageConfig",
     "PathConfig",
     "PersonConfig",
     "PlayConfig",

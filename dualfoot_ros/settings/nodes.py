@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ..core import FEET, Increments, MountingConfig, Parameters, ParameterSpec, parameter
 from ..drivers import CheckConfig
 from ..timing import POLICIES, AlignerConfig, DeviceClockConfig, StampConfig
+from .page_config import PageConfig
 
 SYNC_CHOICES = ("internal", "external")
 FROM_SOURCE = "from_source"
@@ -275,6 +276,7 @@ NODES: dict[str, tuple[type[Parameters], tuple[str, ...]]] = {
     "time_sync": (Parameters, ("aligner", "stamping", "clock", "input", "reports")),
     "replay": (ReplayConfig, ("play", "reports")),
     "bringup": (BringupConfig, ()),
+    "live_page": (PageConfig, ()),
 }
 
 

@@ -6,12 +6,13 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-NODES = ["fusion", "time_sync", "imu_adapter", "bringup", "replay"]
+NODES = ["fusion", "time_sync", "imu_adapter", "bringup", "replay", "live_page"]
 SIGNALS = [signal.SIGINT, signal.SIGTERM]
 
 
 def arguments(node, bag):
-    return ["--ros-args", "-p", f"bag:={bag}"] if node == "replay" else []
+    own = {"replay": f"bag:={bag}", "live_page": "port:=0"}
+    return ["--ros-args", "-p", own[node]] if node in own else []
 
 
 @pytest.mark.parametrize("number", SIGNALS, ids=lambda number: number.name)

@@ -4,12 +4,12 @@ import base64
 
 import numpy as np
 import pytest
+from browser import browser, why_no_browser
 
 from dualfoot_ros.evaluation import evaluate
 from dualfoot_ros.evaluation.reports.html import write_comparison_page, write_walk_page
 
 from ..walks import perfect, rectangle
-from .browser import browser, why_no_browser
 from .entries import entries_of, rows_of
 
 pytestmark = pytest.mark.skipif(bool(why_no_browser()), reason=why_no_browser())

@@ -1,41 +1,17 @@
 """Of a foot that is missing nothing is published."""
 
-import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from nav_msgs.msg import Path as PathMessage
 
-from dualfoot_ros.core import DualFootTracker, ImuPair, TrackerConfig, Update
 from dualfoot_ros.nodes.results.outputs import Outputs
 from dualfoot_ros.nodes.ros import qos
 from dualfoot_ros.settings import FrameConfig, PathConfig, PersonConfig
-from dualfoot_ros.simulation import WalkConfig, simulate
+
+from .updates import tracked
 
 FEET = ("left", "right")
-
-
-def tracked(first: int, count: int, **options: float) -> list[Update]:
-    """Return the updates of a part of a walk that have an estimate."""
-    made = simulate(WalkConfig(route="straight", rate=60.0, standing=3.0), seed=1)
-    tracker = DualFootTracker(TrackerConfig.from_mapping(options), engine="interpreted")
-    rows = np.hstack(
-        [
-            each
-            for foot in (made.left, made.right)
-            for each in (foot.specific_force, foot.angular_rate)
-        ]
-    )
-    part = slice(first, first + count)
-    pairs = zip(made.left.stamp_ns[part].tolist(), rows[part], strict=True)
-    found = [tracker.add(ImuPair(stamp_ns, values)) for stamp_ns, values in pairs]
-    return [update for update in found if update.row is not None]
-
-
-@pytest.fixture(scope="module")
-def updates():
-    """Return the updates of the start of a walk that have an estimate."""
-    return tracked(0, 400)
 
 
 @pytest.mark.parametrize(

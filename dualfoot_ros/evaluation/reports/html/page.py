@@ -1,6 +1,6 @@
 """One self-contained HTML page: no network, no other file, opens from a USB stick.
 
-The plots are drawn by a script of our own (``report.js``, about 20 kB).  A plotting library in
+The plots are drawn by a script of our own (``charts.js``, about 20 kB).  A plotting library in
 the file would be 200 times as large (plotly: 4 MB), and none draws confidence ellipses or strips
 of stances without the same amount of code around it.
 """
@@ -19,9 +19,35 @@ from .words import Sentence, Tone
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
 """Nothing may be loaded: a page that needed the network would show it at once."""
 
+HOW_TO_MOVE = (
+    "Plots: drag to move, the buttons, Ctrl + wheel or two fingers to zoom, double-click for "
+    "everything; names in the legends hide a line."
+)
+
 
 def page(title: str, about: str, body: Iterable[str], data: Mapping[str, Any]) -> str:
     """Return a whole page; ``body`` is HTML, ``data`` has the tables and charts of its plots."""
+    return document(
+        title,
+        [
+            f'<header><h1>{escape(title)}</h1><p class="soft">{escape(about)}</p></header>',
+            *body,
+            f'<p class="soft no-print">{HOW_TO_MOVE}</p>',
+            f'<script type="application/json" id="data">{script_data(data)}</script>',
+        ],
+        [asset("charts.js"), asset("report.js")],
+    )
+
+
+def document(
+    title: str,
+    body: Iterable[str],
+    scripts: Iterable[str],
+    *,
+    style: str = "",
+    policy: str = POLICY,
+) -> str:
+    """Return a page of HTML parts, with the style of all pages and ``style``, and ``scripts``."""
     return "\n".join(
         [
             "<!doctype html>",
@@ -29,18 +55,14 @@ def page(title: str, about: str, body: Iterable[str], data: Mapping[str, Any]) -
             "<head>",
             '<meta charset="utf-8">',
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
+            f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
             '<link rel="icon" href="data:,">',
             f"<title>{escape(title)}</title>",
-            f"<style>\n{asset('report.css')}</style>",
+            f"<style>\n{asset('report.css')}{style}</style>",
             "</head>",
             "<body>",
-            f'<header><h1>{escape(title)}</h1><p class="soft">{escape(about)}</p></header>',
             *body,
-            '<p class="soft no-print">Plots: drag to move, the buttons, Ctrl + wheel or two '
-            "fingers to zoom, double-click for everything; names in the legends hide a line.</p>",
-            f'<script type="application/json" id="data">{script_data(data)}</script>',
-            f"<script>\n{asset('report.js')}</script>",
+            *(f"<script>\n{script}</script>" for script in scripts),
             "</body>",
             "</html>",
             "",

@@ -28,8 +28,11 @@ def why_no_browser() -> str:
 
 
 @contextmanager
-def browser(width: int, height: int = 900) -> Iterator:
-    """Yield a driver of a browser whose page is ``width`` pixels wide, without the network."""
+def browser(width: int, height: int = 900, *, offline: bool = True) -> Iterator:
+    """Yield a driver of a browser whose page is ``width`` pixels wide, without the network.
+
+    A page that is served by this machine needs ``offline=False``.
+    """
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
 
@@ -43,8 +46,14 @@ def browser(width: int, height: int = 900) -> Iterator:
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500}
         driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
         driver.execute_cdp_cmd("Network.enable", {})
-        offline = {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0}
-        driver.execute_cdp_cmd("Network.emulateNetworkConditions", offline)
+        speed = 0 if offline else -1  # -1: as fast as it goes
+        network = {
+            "offline": offline,
+            "latency": 0,
+            "downloadThroughput": speed,
+            "uploadThroughput": speed,
+        }
+        driver.execute_cdp_cmd("Network.emulateNetworkConditions", network)
         yield driver
     finally:
         driver.quit()

@@ -1,0 +1,1 @@
+"""Launch files: which processes follow from their arguments, and the actions of `launch`."""

@@ -1,8 +1,8 @@
 """Strides of a walk: one row a stride of a foot, with the parameters of gait laboratories.
 
-A stride goes from one placement of a foot to its next (Perry 1992); in time it goes from initial
-contact to the next initial contact.  Step length and step width are taken against the line of the
-stride, as Huxham et al. 2006 define them, so they hold on curved paths too.
+A stride goes from one placement of a foot to its next (Perry and Burnfield 2010); in time it goes
+from initial contact to the next initial contact.  Step length and step width are taken against the
+line of the stride, as Huxham et al. 2006 define them, so they hold on curved paths too.
 """
 
 from __future__ import annotations

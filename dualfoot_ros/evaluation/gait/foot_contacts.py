@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -38,7 +39,8 @@ class FootContacts:
     Attributes
     ----------
     contact_s : (M,) s since the start of the track, the initial contact before each stance
-    lift_off_s : (M,) s, the lift-off after each stance
+    lift_off_s : (M,) s, the lift-off after each stance; nan too where the foot pushed off twice
+        before it stood again, so that a stance between was missed
     contact_deg, lift_off_deg : (M,) inclination of the sole then, toes up positive, against how
         the foot stood flat
     """
@@ -105,11 +107,21 @@ def inclination(track: FootTrajectory, axis: FloatArray) -> FloatArray:
 
 def _moments(time: FloatArray, pitch: FloatArray) -> tuple[float, float]:
     """Return lift-off and initial contact of a swing, s; ``pitch`` (K,) rad, toes up positive."""
-    lowest = max(2, int(np.argmin(pitch)))
+    lows = _lows(pitch)
+    lowest, last = (max(2, lows[k]) for k in (0, -1))
+    on = _peak(time, pitch, last + int(np.argmax(pitch[last:])))
+    if len(lows) > 1:
+        return math.nan, on
     rate = np.gradient(pitch, time)
-    off = _middle_of_peak(time, -rate, int(np.argmin(rate[: lowest + 1])))
-    on = _peak(time, pitch, lowest + int(np.argmax(pitch[lowest:])))
-    return off, on
+    return _middle_of_peak(time, -rate, int(np.argmin(rate[: lowest + 1]))), on
+
+
+def _lows(pitch: FloatArray) -> list[int]:
+    """Return where the toes point down most: once a swing, twice where a stance was missed."""
+    least = float(pitch.min())
+    deep = np.flatnonzero(pitch <= max(least, 0.5 * least))
+    ends = [k + 1 for k, (a, b) in enumerate(pairwise(deep)) if pitch[a : b + 1].max() > 0.0]
+    return [int(dip[np.argmin(pitch[dip])]) for dip in np.split(deep, ends)]
 
 
 def _middle_of_peak(time: FloatArray, value: FloatArray, index: int) -> float:

@@ -10,6 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from benchmark.gait_accuracy import true_strides
+from dualfoot_ros.core import stance_bounds
 from dualfoot_ros.evaluation import evaluate, pair_samples, track_samples
 from dualfoot_ros.evaluation.gait import (
     PARAMETERS,
@@ -26,10 +27,20 @@ from ..walks import SPACING, perfect
 
 
 @pytest.fixture(scope="module")
-def simulated():
-    """Return estimated and true strides of one simulated walk, and its duration."""
-    made = simulate(WalkConfig.from_mapping({"route": "rectangle", "laps": 2}), seed=4)
-    tracked = track_samples(pair_samples(Recording(made.left, made.right)))
+def made():
+    """Return one simulated walk."""
+    return simulate(WalkConfig.from_mapping({"route": "rectangle", "laps": 2}), seed=4)
+
+
+@pytest.fixture(scope="module")
+def tracked(made):
+    """Return the track of the simulated walk."""
+    return track_samples(pair_samples(Recording(made.left, made.right)))
+
+
+@pytest.fixture(scope="module")
+def simulated(made, tracked):
+    """Return estimated and true strides of the simulated walk."""
     return strides_of(tracked.left, tracked.right), true_strides(made)
 
 
@@ -171,6 +182,24 @@ def test_lift_off_is_the_middle_of_push_off_whichever_tip_of_its_peak_is_higher(
 
 def _bump(time, width):
     return np.exp(-0.5 * (time / width) ** 2)
+
+
+def test_a_missed_stance_costs_its_stride_and_not_the_times_of_its_neighbours(tracked):
+    bounds = stance_bounds(tracked.left.stance)
+    missed = tracked.left.stance.copy()
+    missed[slice(*bounds[12])] = False
+    blind = replace(tracked.left, stance=missed)
+    before, after = (
+        [s for s in strides_of(left, tracked.right) if s.foot == "left"]
+        for left in (tracked.left, blind)
+    )
+    assert len(after) == len(before) - 1
+    double = next(s for s in after if s.start_ns == before[11].start_ns)
+    assert not double.steady and math.isnan(double.stride_time_s)
+    times = {s.end_ns: s.stride_time_s for s in before}
+    for s in after:
+        if s is not double:
+            assert s.stride_time_s == pytest.approx(times[s.end_ns], abs=0.005, nan_ok=True)
 
 
 def test_a_corner_is_turned_stride_by_stride(simulated):

@@ -14,6 +14,8 @@ from xml.etree import ElementTree
 import pytest
 import yaml
 
+import dualfoot_ros
+
 ROOT = Path(__file__).resolve().parents[1]
 EXECUTABLES = {"bringup", "fusion", "imu_adapter", "replay", "time_sync"}
 
@@ -40,10 +42,34 @@ def manifest():
 
 def test_version_and_licence_agree_everywhere(setup_arguments, manifest):
     version = manifest.findtext("version")
-    assert setup_arguments["version"] == version
-    assert re.search(rf"^{re.escape(version)} ", (ROOT / "CHANGELOG.rst").read_text(), re.M)
+    assert setup_arguments["version"] == version == dualfoot_ros.__version__
     assert manifest.findtext("license") == setup_arguments["license"] == "Apache-2.0"
     assert "Apache License" in (ROOT / "LICENSE").read_text()
+
+
+def changes():
+    """Return (title, underline, entries) of each release of the changelog, the newest first."""
+    lines = (ROOT / "CHANGELOG.rst").read_text(encoding="utf-8").splitlines()
+    starts = [n - 1 for n, line in enumerate(lines) if re.fullmatch(r"-{3,}", line)]
+    ends = [*starts[1:], len(lines)]
+    return [(lines[a], lines[a + 1], lines[a + 2 : b]) for a, b in zip(starts, ends, strict=True)]
+
+
+def test_the_changelog_has_the_form_of_rep_132_and_begins_with_this_version(manifest):
+    version = manifest.findtext("version")
+    releases = changes()
+    forms = [re.fullmatch(r"(\d+\.\d+\.\d+) \((\d{4}-\d\d-\d\d)\)", r[0]) for r in releases]
+    assert all(forms)
+    numbers = [tuple(map(int, form[1].split("."))) for form in forms]
+    assert numbers == sorted(set(numbers), reverse=True)
+    assert forms[0][1] == version
+    dates = [form[2] for form in forms]
+    assert dates == sorted(dates, reverse=True)
+    for title, underline, entries in releases:
+        assert len(underline) == len(title)
+        assert [line for line in entries if line and not re.match(r"\* \S|  +\S", line)] == []
+    title = (ROOT / "CHANGELOG.rst").read_text(encoding="utf-8").splitlines()[1]
+    assert title == "Changelog for package dualfoot_ros"
 
 
 def test_manifest_is_format_3_and_ament_python(manifest):
@@ -108,6 +134,7 @@ def test_the_citation_names_this_version(manifest):
 
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert citation["version"] == manifest.findtext("version")
+    assert f"{citation['version']} ({citation['date-released']})" == changes()[0][0]
     assert citation["license"] == manifest.findtext("license")
     papers = (ROOT / "docs" / "reference" / "notation.md").read_text(encoding="utf-8")
     assert all(f"doi {paper['doi']}" in papers for paper in citation["references"])

@@ -122,6 +122,18 @@ def test_every_import_is_declared_for_ros(manifest):
     assert declared <= wanted | {"rcl_interfaces"}
 
 
+def test_the_page_on_installing_names_every_package_of_the_manifest(manifest):
+    page = (ROOT / "docs" / "how_to" / "install.md").read_text(encoding="utf-8")
+    needed = {d.text for d in manifest.iter("exec_depend") if d.text.startswith("python3-")}
+    lists = re.findall(r"sudo apt install ((?:.*\\\n)*.*)", page)
+    complete = [words for text in lists if needed <= (words := set(text.split()))]
+    assert len(complete) == 2  # with ROS, and with packages of Debian only
+
+
+def test_no_package_of_the_manifest_comes_from_pip(manifest):
+    assert [d.text for d in manifest.iter() if (d.text or "").endswith("-pip")] == []
+
+
 def test_every_import_outside_of_ros_is_declared_for_pip(setup_arguments):
     required = {re.split(r"[<>=\[]", each)[0] for each in setup_arguments["install_requires"]}
     names = {name for name in imported("dualfoot_ros/**/*.py") if not is_ros(name)} - OPTIONAL

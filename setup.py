@@ -17,7 +17,7 @@ def files(folder: str, pattern: str) -> list[str]:
 # the wheels.  The presets travel twice: in the ament share, and as package data for `pip`.
 setup(
     name=NAME,
-    version="0.1.0",
+    version="0.2.0",
     description="Dual-foot pedestrian inertial navigation for ROS 2",
     license="Apache-2.0",
     maintainer="dualfoot_ros maintainers",

@@ -1,3 +1,3 @@
 """Two IMUs, one on each foot, to two trajectories: live in ROS 2 and offline."""
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"

@@ -14,6 +14,8 @@ from xml.etree import ElementTree
 import pytest
 import yaml
 
+import dualfoot_ros
+
 ROOT = Path(__file__).resolve().parents[1]
 EXECUTABLES = {"bringup", "fusion", "imu_adapter", "live_page", "replay", "time_sync"}
 
@@ -40,10 +42,34 @@ def manifest():
 
 def test_version_and_licence_agree_everywhere(setup_arguments, manifest):
     version = manifest.findtext("version")
-    assert setup_arguments["version"] == version
-    assert re.search(rf"^{re.escape(version)} ", (ROOT / "CHANGELOG.rst").read_text(), re.M)
+    assert setup_arguments["version"] == version == dualfoot_ros.__version__
     assert manifest.findtext("license") == setup_arguments["license"] == "Apache-2.0"
     assert "Apache License" in (ROOT / "LICENSE").read_text()
+
+
+def changes():
+    """Return (title, underline, entries) of each release of the changelog, the newest first."""
+    lines = (ROOT / "CHANGELOG.rst").read_text(encoding="utf-8").splitlines()
+    starts = [n - 1 for n, line in enumerate(lines) if re.fullmatch(r"-{3,}", line)]
+    ends = [*starts[1:], len(lines)]
+    return [(lines[a], lines[a + 1], lines[a + 2 : b]) for a, b in zip(starts, ends, strict=True)]
+
+
+def test_the_changelog_has_the_form_of_rep_132_and_begins_with_this_version(manifest):
+    version = manifest.findtext("version")
+    releases = changes()
+    forms = [re.fullmatch(r"(\d+\.\d+\.\d+) \((\d{4}-\d\d-\d\d)\)", r[0]) for r in releases]
+    assert all(forms)
+    numbers = [tuple(map(int, form[1].split("."))) for form in forms]
+    assert numbers == sorted(set(numbers), reverse=True)
+    assert forms[0][1] == version
+    dates = [form[2] for form in forms]
+    assert dates == sorted(dates, reverse=True)
+    for title, underline, entries in releases:
+        assert len(underline) == len(title)
+        assert [line for line in entries if line and not re.match(r"\* \S|  +\S", line)] == []
+    title = (ROOT / "CHANGELOG.rst").read_text(encoding="utf-8").splitlines()[1]
+    assert title == "Changelog for package dualfoot_ros"
 
 
 def test_manifest_is_format_3_and_ament_python(manifest):
@@ -96,6 +122,18 @@ def test_every_import_is_declared_for_ros(manifest):
     assert declared <= wanted | {"rcl_interfaces"}
 
 
+def test_the_page_on_installing_names_every_package_of_the_manifest(manifest):
+    page = (ROOT / "docs" / "how_to" / "install.md").read_text(encoding="utf-8")
+    needed = {d.text for d in manifest.iter("exec_depend") if d.text.startswith("python3-")}
+    lists = re.findall(r"sudo apt install ((?:.*\\\n)*.*)", page)
+    complete = [words for text in lists if needed <= (words := set(text.split()))]
+    assert len(complete) == 2  # with ROS, and with packages of Debian only
+
+
+def test_no_package_of_the_manifest_comes_from_pip(manifest):
+    assert [d.text for d in manifest.iter() if (d.text or "").endswith("-pip")] == []
+
+
 def test_every_import_outside_of_ros_is_declared_for_pip(setup_arguments):
     required = {re.split(r"[<>=\[]", each)[0] for each in setup_arguments["install_requires"]}
     names = {name for name in imported("dualfoot_ros/**/*.py") if not is_ros(name)} - OPTIONAL
@@ -107,6 +145,7 @@ def test_the_citation_names_this_version(manifest):
 
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert citation["version"] == manifest.findtext("version")
+    assert f"{citation['version']} ({citation['date-released']})" == changes()[0][0]
     assert citation["license"] == manifest.findtext("license")
     papers = (ROOT / "docs" / "reference" / "notation.md").read_text(encoding="utf-8")
     assert all(f"doi {paper['doi']}" in papers for paper in citation["references"])

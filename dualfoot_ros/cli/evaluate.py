@@ -202,7 +202,7 @@ def _draw(
 
     runs, title = {result.trajectory.method: result}, Path(recording_name(args)).name
     page = write_walk_page(folder, runs, title, parameters, floor_plan)
-    return [*draw_all(runs, folder, title), page]
+    return [*draw_all(runs, folder, title, floor_plan), page]
 
 
 def _print(

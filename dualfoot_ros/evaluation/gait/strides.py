@@ -1,8 +1,8 @@
 """Strides of a walk: one row a stride of a foot, with the parameters of gait laboratories.
 
-A stride goes from one placement of a foot to its next (Perry 1992); in time it goes from initial
-contact to the next initial contact.  Step length and step width are taken against the line of the
-stride, as Huxham et al. 2006 define them, so they hold on curved paths too.
+A stride goes from one placement of a foot to its next (Perry and Burnfield 2010); in time it goes
+from initial contact to the next initial contact.  Step length and step width are taken against the
+line of the stride, as Huxham et al. 2006 define them, so they hold on curved paths too.
 """
 
 from __future__ import annotations
@@ -165,9 +165,13 @@ def _stride(name: str, number: int, k: int, foot: _Foot, other: _Foot) -> Stride
 
 
 def _times(k: int, foot: _Foot) -> tuple[float, float, float]:
-    """Return stride, stance and swing time, s; nan for a stride that began from standing."""
+    """Return stride, stance and swing time, s.
+
+    They are nan for a stride that began from standing, and where a stance was missed.
+    """
     contact, lift_off = foot.contacts.contact_s, foot.contacts.lift_off_s
-    stride = _within_a_stride(contact[k + 1] - contact[k])
+    known = math.isfinite(lift_off[k])
+    stride = _within_a_stride(contact[k + 1] - contact[k]) if known else math.nan
     stance = lift_off[k] - contact[k] if math.isfinite(stride) else math.nan
     return stride, float(stance), float(contact[k + 1] - lift_off[k])
 

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from dualfoot_ros.evaluation import EvaluationError, person_track
+from dualfoot_ros.evaluation import EvaluationError, evaluate, person_track
 from dualfoot_ros.evaluation.exports import (
     FloorPlan,
     GeoOrigin,
@@ -17,6 +17,7 @@ from dualfoot_ros.evaluation.exports import (
     write_geo_files,
     write_person,
 )
+from dualfoot_ros.evaluation.reports.plots import tracks
 
 from ..walks import perfect, rectangle
 
@@ -148,6 +149,26 @@ def test_a_floor_plan_lies_with_its_start_on_the_start(person, tmp_path):
     assert (picture["left"], picture["up"]) == pytest.approx((1.0, 4.0))
     assert picture["angle"] == pytest.approx(math.degrees(start_direction(person)) - 90.0)
     assert picture["href"].startswith("data:image/png;base64,")
+
+
+def test_a_floor_plan_lies_under_the_tracks_of_the_picture_too(tmp_path, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(tracks, "save", lambda figure, path: drawn.append(figure))
+    write_png(tmp_path / "hall.png", 200, 100)
+    run = evaluate(perfect(rectangle())[0])
+    plan = FloorPlan.load(tmp_path / "hall.png", 0.05, "20,80,90")
+    for given in (None, plan):
+        tracks.draw_tracks({"zupt": run}, tmp_path / "tracks.png", "a walk", given)
+    plain, laid = (figure.axes[0] for figure in drawn)
+    (image,) = laid.images
+    start = person_track(run.trajectory).position[0, :2]
+    # the start's pixel in the coordinates of the picture, then where the axes draw it
+    left, _, _, top = image.get_extent()
+    pixel = np.array([left + 20 * 0.05, top - 80 * 0.05])
+    shown = laid.transData.inverted().transform(image.get_transform().transform(pixel))
+    assert shown == pytest.approx(start, abs=1e-6)
+    assert image.get_zorder() < min(line.get_zorder() for line in laid.lines)
+    assert np.ptp(laid.get_xlim()) == pytest.approx(np.ptp(plain.get_xlim()), rel=0.1)
 
 
 @pytest.mark.parametrize(

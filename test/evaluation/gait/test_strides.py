@@ -7,8 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from benchmark.gait_accuracy import true_strides
+from dualfoot_ros.core import stance_bounds
 from dualfoot_ros.evaluation import evaluate, pair_samples, track_samples
 from dualfoot_ros.evaluation.gait import (
     PARAMETERS,
@@ -25,10 +27,20 @@ from ..walks import SPACING, perfect
 
 
 @pytest.fixture(scope="module")
-def simulated():
-    """Return estimated and true strides of one simulated walk, and its duration."""
-    made = simulate(WalkConfig.from_mapping({"route": "rectangle", "laps": 2}), seed=4)
-    tracked = track_samples(pair_samples(Recording(made.left, made.right)))
+def made():
+    """Return one simulated walk."""
+    return simulate(WalkConfig.from_mapping({"route": "rectangle", "laps": 2}), seed=4)
+
+
+@pytest.fixture(scope="module")
+def tracked(made):
+    """Return the track of the simulated walk."""
+    return track_samples(pair_samples(Recording(made.left, made.right)))
+
+
+@pytest.fixture(scope="module")
+def simulated(made, tracked):
+    """Return estimated and true strides of the simulated walk."""
     return strides_of(tracked.left, tracked.right), true_strides(made)
 
 
@@ -132,13 +144,13 @@ def test_stance_and_swing_make_up_the_stride_and_the_stride_makes_the_cadence(si
         ("step_length_m", 0.01, 0.05),
         ("step_width_m", 0.06, 0.05),
         ("stride_time_s", 0.002, 0.005),
-        ("stance_time_s", 0.02, 0.015),
-        ("swing_time_s", 0.02, 0.015),
+        ("stance_time_s", 0.005, 0.004),
+        ("swing_time_s", 0.005, 0.004),
         ("cadence_steps_per_min", 0.2, 0.5),
         ("speed_m_per_s", 0.01, 0.025),
         ("clearance_m", 0.01, 0.01),
         ("contact_deg", 2.0, 2.0),
-        ("lift_off_deg", 10.0, 7.0),
+        ("lift_off_deg", 2.5, 2.0),
         ("turn_deg", 0.3, 1.5),
     ],
 )
@@ -149,6 +161,45 @@ def test_each_parameter_is_near_the_truth_of_the_simulator(simulated, name, bias
     error = error[np.isfinite(error)]
     assert abs(error.mean()) < bias
     assert error.std() < spread
+
+
+@pytest.mark.parametrize("higher", [-1, 1])
+def test_lift_off_is_the_middle_of_push_off_whichever_tip_of_its_peak_is_higher(higher):
+    track, _ = perfect()
+    time = (track.left.stamp_ns - track.left.stamp_ns[0]) * 1e-9
+    start, end = (np.flatnonzero(np.diff(track.left.stance.astype(int)) == s)[2] for s in (-1, 1))
+    middle = time[start] + 0.3 * (time[end] - time[start])
+    push = _bump(time - middle + 0.04, 0.032) + _bump(time - middle - 0.04, 0.032)
+    push += 0.03 * _bump(time - middle - 0.04 * higher, 0.02)
+    back = _bump(time - middle - 0.25, 0.05)
+    rate = np.deg2rad(40.0) * (push / push.sum() - back / back.sum())
+    pitch = np.cumsum(rate) - rate / 2
+    own = Rotation.from_euler("Y", pitch[:, None]) * Rotation.from_quat(track.left.quaternion)
+    found = find_contacts(replace(track.left, quaternion=own.as_quat()))
+    lift_offs = found.lift_off_s[np.abs(found.lift_off_s - middle) < 0.1]
+    assert lift_offs == pytest.approx([middle], abs=0.003)
+
+
+def _bump(time, width):
+    return np.exp(-0.5 * (time / width) ** 2)
+
+
+def test_a_missed_stance_costs_its_stride_and_not_the_times_of_its_neighbours(tracked):
+    bounds = stance_bounds(tracked.left.stance)
+    missed = tracked.left.stance.copy()
+    missed[slice(*bounds[12])] = False
+    blind = replace(tracked.left, stance=missed)
+    before, after = (
+        [s for s in strides_of(left, tracked.right) if s.foot == "left"]
+        for left in (tracked.left, blind)
+    )
+    assert len(after) == len(before) - 1
+    double = next(s for s in after if s.start_ns == before[11].start_ns)
+    assert not double.steady and math.isnan(double.stride_time_s)
+    times = {s.end_ns: s.stride_time_s for s in before}
+    for s in after:
+        if s is not double:
+            assert s.stride_time_s == pytest.approx(times[s.end_ns], abs=0.005, nan_ok=True)
 
 
 def test_a_corner_is_turned_stride_by_stride(simulated):

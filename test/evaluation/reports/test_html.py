@@ -13,7 +13,7 @@ from dualfoot_ros.evaluation.reports.html.comparison_page import comparison_page
 from dualfoot_ros.evaluation.reports.html.page import script_data
 from dualfoot_ros.evaluation.reports.html.page_tables import column, thin
 from dualfoot_ros.evaluation.reports.html.walk_page import walk_page
-from dualfoot_ros.evaluation.reports.html.words import Tone, in_words
+from dualfoot_ros.evaluation.reports.html.words import Tone, _symmetry, in_words
 from dualfoot_ros.inspection import Finding, FindingKind, Severity
 from dualfoot_ros.recording.reference import Reference
 
@@ -142,6 +142,53 @@ def test_a_comparison_names_the_best_and_every_failure():
     for row in rows:
         row["midpoint_rmse_m"] = 0.5 if row["case"] == "zupt" else 0.2
     page = comparison_page(entries, rows, {"far, zupt": "there are no samples"})
-    assert "idc has the smallest error (RMSE): 0.200 m" in page
+    assert "idc has the smallest error against the truth (RMSE): 0.20 m" in page
+    assert "zupt has the largest: 0.50 m" in page
     assert "far, zupt gave no figures: there are no samples." in page
     assert len(data_of(page)["charts"]) == 2
+
+
+def test_a_comparison_shows_baseline_best_worst_and_default_at_first():
+    names = ("max_distance", "zupt", "idc", "min_distance", "step_length", "spacing_vector")
+    first = entries_of()[0]
+    entries = [replace(first, case=replace(first.case, label=name)) for name in names]
+    rows = rows_of(entries)
+    for row, error in zip(rows, (0.3, 0.35, 0.2, 0.5, 0.4, 0.25), strict=True):
+        row["midpoint_rmse_m"] = error
+        row["feet_crossed_percent"] = 100 * error if error > 0.35 else 0.0
+    page = comparison_page(entries, rows, {})
+    assert "spacing_vector, the default, has 0.25 m" in page
+    assert "wrong side" in page and "min_distance (50 %), step_length (40 %)" in page
+    tracks = {s["name"]: s for s in data_of(page)["charts"]["map0"]["series"] if "shown" in s}
+    shown = {name for name, series in tracks.items() if series["shown"]}
+    assert shown == {"zupt", "min_distance", "idc", "spacing_vector"}
+    widths = [series["width"] for series in tracks.values()]
+    assert widths == sorted(widths, reverse=True)
+
+
+def test_figures_that_some_recordings_lack_say_in_how_many_they_are_known():
+    entries = entries_of()
+    rows = rows_of(entries)
+    for row in rows:
+        row["midpoint_rmse_m"] = 0.5 if row["bag"] == "one" else None
+    assert "(1 of 2 recordings have this figure)" in comparison_page(entries, rows, {})
+
+
+def test_the_words_tell_the_horizontal_error_beside_the_claim_and_call_equal_feet_equal():
+    track, truth = perfect(rectangle())
+    for foot in (track.left, track.right):
+        foot.position[:, 2] += np.linspace(0.0, 0.4, len(foot))
+    run = evaluate(track, truth=truth)
+    said = " ".join(s.text for s in in_words(run, person_track(run.trajectory)))
+    assert "0.00 m horizontally" in said and "Horizontally, the filter claims" in said
+    assert f"{run.truth_report.midpoint.rmse_vertical_m:.2f} m in height" in said
+    assert _symmetry(0.01) == "both feet stand equally long"
+    assert "right foot is 0.1 % longer" in _symmetry(0.06)
+
+
+def test_a_long_walk_hides_the_lines_that_would_fill_the_plot_and_keeps_the_moments():
+    points = np.column_stack([np.arange(400) * 1.2, np.zeros(400)])
+    track, truth = perfect(points)
+    page = walk_page({"a": evaluate(track, truth=truth)}, "a walk")
+    apart = data_of(page)["charts"]["0.apart"]["series"]
+    assert [s.get("shown", True) for s in apart] == [False, True, False, True]

@@ -1,29 +1,58 @@
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.results.events import EventKind
 from dualfoot_ros.evaluation import as_live, track
-from dualfoot_ros.nodes.demo.live_graph import LiveGraph, run_live, same_bits
+from dualfoot_ros.nodes.demo.collector import PERSON
+from dualfoot_ros.nodes.demo.live_graph import LiveGraph, same_bits
+from dualfoot_ros.nodes.ros.messages import to_ns
 from dualfoot_ros.recording import read_bag
+
+from .plain_ekf import LEAST_VARIANCE, POSE, TWIST, VX, VY, YAW, PlainEkf, X, Y
 
 DEMO = Path(__file__).resolve().parents[3] / "bags" / "demo"
 
 
 @pytest.fixture(scope="module")
-def both():
-    """Return the demo bag through the nodes, and the same samples offline."""
+def played():
+    """Return the demo bag through the nodes, and the odometry of the person as published."""
     import rclpy
 
-    context, config, recording = rclpy.Context(), TrackerConfig(), read_bag(DEMO)
+    context = rclpy.Context()
     rclpy.init(args=["--ros-args", "--log-level", "error"], context=context)
+    graph = LiveGraph(DEMO, {"default": TrackerConfig()}, context)
     try:
-        live = run_live(DEMO, {"default": config}, context)["default"]
+        graph.run(lambda share: None)
+        return graph.result("default"), list(graph.collectors["default"].messages[PERSON])
     finally:
+        graph.close()
         rclpy.try_shutdown(context=context)
-    return live, track(recording, as_live(config))
+
+
+@pytest.fixture(scope="module")
+def both(played):
+    """Return the demo bag through the nodes, and the same samples offline."""
+    return played[0], track(read_bag(DEMO), as_live(TrackerConfig()))
+
+
+@pytest.fixture(scope="module")
+def person(played):
+    """Return stamps, messages and true places of the person, from where the heading is known."""
+    live, messages = played
+    known = max(e.detected_ns for e in live.trajectory.of_kind(EventKind.HEADING))
+    messages = [m for m in messages if to_ns(m.header.stamp) > known]
+    stamps = np.array([to_ns(m.header.stamp) for m in messages])
+    recording = read_bag(DEMO)
+    feet = [
+        [np.interp(stamps, truth.stamp_ns, truth.position[:, axis]) for axis in range(2)]
+        for truth in (recording.left_truth, recording.right_truth)
+    ]
+    return stamps, messages, np.mean(feet, axis=0).T
 
 
 def test_the_demo_bag_through_the_nodes_is_the_offline_run_to_the_bit(both):
@@ -64,6 +93,68 @@ def test_every_sample_was_taken_and_none_refused(both):
     assert live.counters["pairs"] == len(read_bag(DEMO).left) or live.counters["pairs"] > 13_000
     refusals = ("not_finite", "out_of_order", "duplicate", "gaps", "resets")
     assert not any(live.counters.get(name) for name in refusals)
+
+
+def test_every_covariance_of_the_person_is_one_that_a_filter_can_use(person):
+    stamps, messages, _ = person
+    assert (np.diff(stamps) > 0).all()
+    for part in ("pose", "twist"):
+        found = np.array([np.reshape(getattr(m, part).covariance, (6, 6)) for m in messages])
+        assert np.isfinite(found).all()
+        assert found == pytest.approx(found.transpose(0, 2, 1), rel=1e-9, abs=1e-15)
+        assert np.linalg.eigvalsh(found).min() > LEAST_VARIANCE
+
+
+@pytest.mark.parametrize(
+    ("used", "differential", "worst_m"),
+    [
+        (POSE, False, 0.15),
+        ((*POSE, *TWIST), False, 0.15),
+        (POSE, True, 0.15),
+        (TWIST, False, 0.8),
+    ],
+)
+def test_a_filter_by_the_rules_of_robot_localization_follows_the_truth(
+    person, used, differential, worst_m
+):
+    _, messages, truth = person
+    ekf = PlainEkf(used, differential=differential)
+    states = np.array([ekf.add(message) for message in messages])
+    assert np.isfinite(states).all()
+    assert np.linalg.eigvalsh(ekf.covariance).min() > 0
+    assert misfit(states[:, [X, Y]], truth) < worst_m
+    # the body moves forward in its own frame, at 1.2 m/s with the ripple of the steps
+    moving = np.abs(states[:, VX]) > 0.5
+    assert np.mean(states[moving, VX]) == pytest.approx(1.2, abs=0.2)
+    assert np.abs(np.mean(states[moving, VY])) < 0.1
+
+
+def test_the_configuration_for_robot_localization_on_its_page_follows_the_truth(person):
+    _, messages, truth = person
+    page = DEMO.parents[1] / "docs" / "how_to" / "other_packages.md"
+    block = re.search(r"```yaml\n(ekf_filter_node:.*?)```", page.read_text(encoding="utf-8"), re.S)
+    values = yaml.safe_load(block[1])["ekf_filter_node"]["ros__parameters"]
+    used = np.flatnonzero(values["odom0_config"])
+    in_the_plane = {0: X, 1: Y, 5: YAW}  # of x, y, z, roll, pitch, yaw, their rates, accelerations
+    assert values["two_d_mode"] and values["odom0"] == "/odometry" and len(used) == 3
+    ekf = PlainEkf(
+        [in_the_plane[k] for k in used.tolist()],
+        world_frame=values["world_frame"],
+        base_link_frame=values["base_link_frame"],
+        differential=values["odom0_differential"],
+    )
+    states = np.array([ekf.add(message) for message in messages])
+    assert misfit(states[:, [X, Y]], truth) < 0.15
+    # what moves only relative to itself is known less and less
+    assert ekf.covariance[X, X] + ekf.covariance[Y, Y] > 1.0
+
+
+def misfit(places: np.ndarray, truth: np.ndarray) -> float:
+    """Return the RMSE (m) after the best turn and shift in the plane: frames are free."""
+    a, b = (points - points.mean(axis=0) for points in (places, truth))
+    turn = np.arctan2(np.sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]), np.sum(a * b))
+    c, s = np.cos(turn), np.sin(turn)
+    return float(np.sqrt(np.mean(np.sum((a @ np.array([[c, s], [-s, c]]) - b) ** 2, axis=1))))
 
 
 def test_one_changed_bit_is_seen(both):

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ....core import TrackerConfig
 from ..comparison_rows import by_case, over_bags
 from ..plots import MARKER, TRUTH
 from ..walk_table import number
+from .comparison_words import JUDGED, in_words, ranking
 from .page import figure, html_table, page, section, words
 from .page_tables import table
 from .walk_page import FILE_NAME
-from .words import Sentence, Tone
 
 if TYPE_CHECKING:
     from ...batch import Entry
@@ -28,7 +29,8 @@ WIDTHS = (9.0, 6.0, 3.5, 1.5)
 
 TRUTH_STYLE = {"color": TRUTH, "width": 14, "opacity": 0.4}
 MARKER_STYLE = {"color": MARKER, "style": "dots", "hollow": True, "width": 5}
-SHOWN_AT_FIRST = len(WIDTHS)
+HIDDEN_WIDTH = 2.0
+BASELINE = "zupt"
 FIGURES = {
     "midpoint_rmse_m": ("RMSE (m)", 3),
     "midpoint_end_m": ("end error (m)", 3),
@@ -41,12 +43,6 @@ FIGURES = {
     "feet_crossed_percent": ("feet crossed (%)", 1),
     "run_s": ("run time (s)", 2),
 }
-JUDGED = {
-    "midpoint_rmse_m": "error (RMSE)",
-    "right_marker_rmse_m": "error at the floor markers (RMSE)",
-    "closure_mean_m": "closure",
-}
-"""Figures by which the best case is named: the first that is known."""
 
 
 def write_comparison_page(
@@ -74,15 +70,16 @@ def comparison_page(
     """Return the page; see :func:`write_comparison_page`."""
     bags = list(dict.fromkeys(entry.bag for entry in entries))
     cases = by_case([dict(row) for row in rows])
+    shown = _shown(cases)
     tables: dict[str, Any] = {}
     charts: dict[str, Any] = {}
     for index, bag in enumerate(bags):
         own = [entry for entry in entries if entry.bag == bag]
-        made, series = _tracks(index, own)
+        made, series = _tracks(index, own, shown)
         tables |= made
         charts[f"map{index}"] = _map(index, bag, own, series)
     body = [
-        section("Findings", words(list(_in_words(cases, failures)))),
+        section("Findings", words(list(in_words(cases, failures)))),
         section("Figures", _table(cases), _caption(entries, len(bags))),
         section("Tracks", *(figure(name) for name in charts)),
     ]
@@ -99,29 +96,6 @@ def _known(cases: Mapping[str, list[dict[str, Any]]]) -> list[str]:
     ]
 
 
-def _in_words(
-    cases: Mapping[str, list[dict[str, Any]]], failures: Mapping[str, str]
-) -> Iterator[Sentence]:
-    for name, reason in failures.items():
-        yield Sentence(f"{name} gave no figures: {reason}.", Tone.WARNING)
-    judged = next((name for name in JUDGED if name in _known(cases)), None)
-    if judged is None:
-        yield Sentence(
-            "The recordings have no truth, no floor markers and no closed loop, so nothing tells "
-            "which method is best here."
-        )
-        return
-    order = sorted(
-        (error, case) for case, rows in cases.items() if (error := over_bags(rows, judged))
-    )
-    if not order:
-        return
-    label = JUDGED[judged]
-    yield Sentence(f"{order[0][1]} has the smallest {label}: {order[0][0]:.3f} m.", Tone.GOOD)
-    if len(order) > 1:
-        yield Sentence(f"{order[-1][1]} has the largest: {order[-1][0]:.3f} m.")
-
-
 def _table(cases: Mapping[str, list[dict[str, Any]]]) -> str:
     shown = _known(cases)
     rows = [
@@ -133,17 +107,29 @@ def _table(cases: Mapping[str, list[dict[str, Any]]]) -> str:
 
 def _caption(entries: Sequence[Entry], bags: int) -> str:
     median = "Medians over the recordings. " if bags > 1 else ""
-    how = entries[0].metrics["alignment"]["words"]
+    how = "; ".join(dict.fromkeys(entry.metrics["alignment"]["words"] for entry in entries))
     return f'<p class="soft">{median}Of the point between the feet. Aligned by: {how}.</p>'
 
 
-def _tracks(index: int, entries: Sequence[Entry]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
+def _shown(cases: Mapping[str, list[dict[str, Any]]]) -> list[str]:
+    """Return the cases whose tracks are shown at first: baseline, worst, best and the default."""
+    orders = (ranking(cases, figure) for figure in JUDGED)
+    order = [case for _, case in next((found for found in orders if found), [])]
+    wanted = [BASELINE, *order[-1:], *order[:1], TrackerConfig().method, *cases]
+    known = [case for case in dict.fromkeys(wanted) if case in cases]
+    return known[: len(WIDTHS)]
+
+
+def _tracks(
+    index: int, entries: Sequence[Entry], shown: Sequence[str]
+) -> tuple[dict[str, Any], list[dict[str, Any]]]:
     """Return the tables and the series of all tracks of one bag: truth below, markers on top."""
     first = entries[0].tracks
     curves = [("truth", points, TRUTH_STYLE) for points in first.truth.values()]
-    for number_, entry in enumerate(entries):
+    styles = {e.case.label: _style(k, e.case.label, shown) for k, e in enumerate(entries)}
+    for entry in sorted(entries, key=lambda entry: -styles[entry.case.label]["width"]):
         person = np.mean(list(entry.tracks.estimate.values()), axis=0)
-        curves.append((entry.case.label, person, _style(number_)))
+        curves.append((entry.case.label, person, styles[entry.case.label]))
     curves += [("floor markers", points, MARKER_STYLE) for points in first.markers.values()]
     names = [f"{index}.{number_}" for number_ in range(len(curves))]
     tables = {
@@ -157,13 +143,13 @@ def _tracks(index: int, entries: Sequence[Entry]) -> tuple[dict[str, Any], list[
     return tables, series
 
 
-def _style(number_: int) -> dict[str, Any]:
-    """Return colour, dash and width of the track of a case by its number."""
+def _style(number_: int, label: str, shown: Sequence[str]) -> dict[str, Any]:
+    """Return colour and dash of the track of a case by its number, and its width by its rank."""
     return {
         "color": COLOURS[number_ % len(COLOURS)],
         "dash": "" if number_ < len(COLOURS) else "5 3",
-        "width": WIDTHS[number_ % len(WIDTHS)],
-        "shown": number_ < SHOWN_AT_FIRST,
+        "width": WIDTHS[shown.index(label)] if label in shown else HIDDEN_WIDTH,
+        "shown": label in shown,
     }
 
 

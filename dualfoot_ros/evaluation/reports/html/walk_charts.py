@@ -33,7 +33,7 @@ def walk_charts(run: Evaluation, person: PersonTrack) -> dict[str, dict[str, Any
         "height_time": _height(run, "time", "time since the start (s)"),
         "height_walked": _height(run, "walked", "distance walked (m)"),
         "uncertainty": _uncertainty(run),
-        "apart": _apart(run, moments),
+        "apart": _apart(run, person, moments),
         "stances": _stances(),
         "stride_length": _strides("length", "Stride length", "m"),
         "speed": _strides("speed", "Speed of each stride", "m/s"),
@@ -110,18 +110,20 @@ def _height(run: Evaluation, over: str, label: str) -> dict[str, Any]:
         "least": 0.5,
         "link": "walk",
         "series": series,
-        "note": "Floors and stairs show as steps; the legend adds both feet with their swings.",
+        "note": "Of the sensors, so it begins with their height on the shoe. Floors and stairs "
+        "show as steps; the legend adds both feet with their swings.",
     }
 
 
 def _uncertainty(run: Evaluation) -> dict[str, Any]:
     series = [line("95 % radius claimed", PERSON, "walked", "radius", dash="6 3")]
     if run.truth is not None:
+        # Where all three agree they lie on each other: the wide ones first, so that each shows.
         series += [
-            line(f"error of the {foot} foot", FOOT[foot], "walked", f"error_{foot}", width=1)
-            for foot in FEET
+            line(f"error of the {foot} foot", FOOT[foot], "walked", f"error_{foot}", width=width)
+            for foot, width in zip(FEET, (4.5, 2.8), strict=True)
         ]
-        series.append(line("error of the person", "#1b1b1b", "walked", "error", width=2))
+        series.append(line("error of the person", "#1b1b1b", "walked", "error", width=1.2))
     how = f" Aligned by: {run.alignment_name}." if run.truth is not None else ""
     title = "Uncertainty" if run.truth is None else "Error and uncertainty"
     return {
@@ -139,11 +141,16 @@ def _uncertainty(run: Evaluation) -> dict[str, Any]:
     }
 
 
-def _apart(run: Evaluation, moments: str) -> dict[str, Any]:
+def _apart(run: Evaluation, person: PersonTrack, moments: str) -> dict[str, Any]:
+    short = float(person.walked_m[-1]) <= LONG_WALK_M
     series = []
     if run.truth is not None:
-        series.append(line("truth", TRUTH, "time", "true_apart", width=3, opacity=0.7))
-    series.append(line("estimate", "#444444", "time", "apart", width=1))
+        true = line("truth", TRUTH, "time", "true_apart", width=3, opacity=0.7, shown=short)
+        at_moments = line(
+            f"truth, {moments}", TRUTH, "time", "true_apart", style="dots", width=2.5
+        )
+        series += [true, {**at_moments, "table": "moments"}]
+    series.append(line("estimate", "#444444", "time", "apart", width=1, shown=short))
     series.append({**line(moments, GREEN, "time", "apart", style="dots"), "table": "moments"})
     return {
         "title": "Distance between the feet",
@@ -155,6 +162,7 @@ def _apart(run: Evaluation, moments: str) -> dict[str, Any]:
         "zero": True,
         "link": "walk",
         "series": series,
+        "note": "" if short else "The lines of so many steps fill the plot; the legend adds them.",
     }
 
 

@@ -120,7 +120,7 @@ def _tiles(run: Evaluation, person: PersonTrack) -> dict[str, str]:
     elif run.closure is not None:
         name = "loop closure" if run.closed_loop else "start to end"
         figures[name] = f"{number(run.closure.mean_m)} m"
-    figures["95 % radius at the end"] = f"{person.radius_95_m[-1]:.2f} m"
+    figures["95 % radius at the end, claimed"] = f"{person.radius_95_m[-1]:.2f} m"
     figures["height at the end"] = f"{person.floor_m[-1] - person.floor_m[0]:+.2f} m"
     figures["time"] = duration(person)
     speed = run.gait.parameters["speed_m_per_s"].both.mean

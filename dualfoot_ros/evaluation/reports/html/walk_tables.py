@@ -100,5 +100,11 @@ def _moments(run: Evaluation, time: FloatArray) -> Any:
     if len(at) == 0:
         at = swing_passings(left.position, right.position, left.stance, right.stance).index
     at = at[thin(len(at), 2000)]
-    apart = np.linalg.norm((left.position - right.position)[at], axis=1)
-    return table({"time": time[at], "apart": apart})
+    columns = {
+        "time": time[at],
+        "apart": np.linalg.norm((left.position - right.position)[at], axis=1),
+    }
+    if run.truth is not None:
+        true = run.truth[0].position - run.truth[1].position
+        columns["true_apart"] = np.linalg.norm(true[at], axis=1)
+    return table(columns)

@@ -13,6 +13,9 @@ from ..walk_table import number
 CLIMB_M = 0.5
 """Less height than this may be drift."""
 
+EQUAL_PERCENT = 0.05
+"""A smaller asymmetry would be printed as zero."""
+
 
 class Tone(StrEnum):
     """How a sentence is shown; its value is the class of the page's style."""
@@ -71,13 +74,14 @@ def _errors(run: Evaluation, person: PersonTrack) -> Iterator[Sentence]:
     radius = float(person.radius_95_m[-1])
     claim = f"the filter claims to know the place at the end within {radius:.2f} m (95 %)"
     if report is None:
-        yield Sentence(f"There is no truth to compare with; {claim}.")
+        yield Sentence(f"There is no truth to compare with; horizontally, {claim}.")
     else:
         end = report.midpoint
         yield Sentence(
             f"Against the truth the track is {number(end.end_m)} m off at the end "
-            f"({number(end.end_percent)} % of the way) and {number(end.rmse_m)} m in the mean "
-            f"(RMSE); {claim}."
+            f"({number(end.end_percent)} % of the way); the RMSE over the walk is "
+            f"{number(end.rmse_m)} m, {number(end.rmse_horizontal_m)} m horizontally and "
+            f"{number(end.rmse_vertical_m)} m in height. Horizontally, {claim}."
         )
     for foot, markers in run.marker_report.items():
         if markers.errors_m:
@@ -104,7 +108,7 @@ def _height(person: PersonTrack) -> Iterator[Sentence]:
     floor = person.floor_m - person.floor_m[0]
     low, high, end = float(floor.min()), float(floor.max()), float(floor[-1])
     if high - low < CLIMB_M:
-        yield Sentence(f"The floor is level within {high - low:.2f} m.")
+        yield Sentence(f"The floor of the track is level within {high - low:.2f} m.")
         return
     yield Sentence(
         f"The height lies between {low:+.2f} m and {high:+.2f} m of the start; the walk ends at "
@@ -127,6 +131,8 @@ def _gait(run: Evaluation) -> Iterator[Sentence]:
 
 
 def _symmetry(percent: float) -> str:
+    if abs(percent) < EQUAL_PERCENT:
+        return "both feet stand equally long"
     longer, other = ("right", "left") if percent >= 0 else ("left", "right")
     return (
         f"the stance of the {longer} foot is {abs(percent):.1f} % longer than that of the {other}"

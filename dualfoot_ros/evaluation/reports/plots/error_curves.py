@@ -18,6 +18,8 @@ from .style import FOOT, GREEN, LINES, PINK, legend_above, new_figure, save
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+WIDE, NARROW = 2.8, 1.1
+
 
 def draw_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
     """Draw position and heading errors against the truth, one line style a run."""
@@ -28,7 +30,10 @@ def draw_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
             track = run.feet_tracks[foot]
             walked = Footfalls.of(track).walked(truth.position, truth.stamp_ns)
             error = np.linalg.norm(track.position - truth.position, axis=1)
-            axes[0, 0].plot(walked, error, style, color=FOOT[foot], lw=1.1, label=f"{name} {foot}")
+            # On a long walk both lie on each other: the first is wide, so that both show.
+            width = WIDE if foot == FEET[0] else NARROW
+            label = f"{name} {foot}"
+            axes[0, 0].plot(walked, error, style, color=FOOT[foot], lw=width, label=label)
             turn = heading_error(track.quaternion, truth.quaternion)
             turns.append(_in_stance(turn, track.stance))
         _heading(axes[1, 0], walked, turns, style, name)

@@ -6,17 +6,23 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from ...evaluate import Evaluation
+from ...exports import FloorPlan
 from .distance import draw_distance
 from .error_curves import draw_errors, draw_marker_errors
 from .stances import draw_stances
 from .tracks import draw_tracks
 
 
-def draw_all(runs: Mapping[str, Evaluation], directory: Path, title: str) -> list[Path]:
+def draw_all(
+    runs: Mapping[str, Evaluation],
+    directory: Path,
+    title: str,
+    floor_plan: FloorPlan | None = None,
+) -> list[Path]:
     """Draw the figures of one or more runs of the same walk and return their paths."""
     first = next(iter(runs.values()))
     paths = [
-        draw_tracks(runs, directory / "tracks.png", title),
+        draw_tracks(runs, directory / "tracks.png", title, floor_plan),
         draw_distance(runs, directory / "feet_distance.png", title),
         draw_stances(first, directory / "stances.png", title),
     ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,7 +11,9 @@ import numpy as np
 
 from ....core import FEET
 from ...evaluate import Evaluation
+from ...exports import FloorPlan
 from ...frames.association import Footfalls
+from ...person_track import person_track
 from .style import FOOT, MARKER, TRUTH, new_figure, save, wrapped
 
 if TYPE_CHECKING:
@@ -23,16 +26,22 @@ MOST_DOTS = 80
 """Stances are dotted on walks of no more than this many."""
 
 WIDE = 2.4
+MARGIN = 0.08
+"""Of the size of the tracks, shown of a floor plan around them."""
 
 
-def draw_tracks(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
-    """Draw one panel for each run, all to the same scale."""
+def draw_tracks(
+    runs: Mapping[str, Evaluation], path: Path, title: str, floor_plan: FloorPlan | None = None
+) -> Path:
+    """Draw one panel for each run, all to the same scale, over a floor plan where one is given."""
     width, height = _panel_size(runs)
     figure, axes = new_figure(
         max(4.5, width * len(runs)), height + 1.4, columns=len(runs), sharex=True, sharey=True
     )
     for axis, (name, run) in zip(axes.flat, runs.items(), strict=True):
         _panel(axis, run)
+        if floor_plan is not None:
+            _lay_under(axis, run, floor_plan)
         axis.set_title(name, fontsize=10)
         axis.set_xlabel("x (m)")
     axes[0, 0].set_ylabel("y (m)")
@@ -77,6 +86,27 @@ def _panel(axis: Axes, run: Evaluation) -> None:
             axis.plot(*stood[:, :2].T, ".", color=colour, markersize=4)
     _ends(axis, run)
     axis.set_aspect("equal", adjustable="box")
+
+
+def _lay_under(axis: Axes, run: Evaluation, plan: FloorPlan) -> None:
+    """Draw the picture under the tracks; the axes keep to the tracks."""
+    from matplotlib.image import imread
+    from matplotlib.transforms import Affine2D
+
+    place = plan.picture(person_track(run.trajectory))
+    left, top = place["x"] - place["left"], place["y"] + place["up"]
+    turn = Affine2D().rotate_deg_around(place["x"], place["y"], place["angle"])
+    axis.margins(MARGIN)
+    limits = axis.get_xlim(), axis.get_ylim()
+    axis.grid(visible=False)
+    axis.imshow(
+        imread(io.BytesIO(plan.png)),
+        extent=(left, left + place["width"], top - place["height"], top),
+        transform=turn + axis.transData,
+        cmap="gray",
+        zorder=0,
+    )
+    axis.set(xlim=limits[0], ylim=limits[1])
 
 
 def _ends(axis: Axes, run: Evaluation) -> None:

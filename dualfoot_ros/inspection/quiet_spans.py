@@ -105,17 +105,18 @@ def _quiet_instants(unrest: FloatArray, apart: int) -> IntArray:
 
 def _cycles(series: ImuSeries, starts: IntArray, size: int) -> list[tuple[int, int]]:
     """Return the pairs of successive windows with one step between their middles."""
+    rate_hz = series.rate_hz
     return [
         (a, b)
         for a, b in itertools.pairwise(starts.tolist())
-        if _is_cycle(series, a + size // 2, b + size // 2)
+        if _is_cycle(series, rate_hz, a + size // 2, b + size // 2)
     ]
 
 
-def _is_cycle(series: ImuSeries, first: int, last: int) -> bool:
+def _is_cycle(series: ImuSeries, rate_hz: float, first: int, last: int) -> bool:
     """Return whether the foot makes one step between two samples, and none is missing."""
     duration_s = float(series.stamp_ns[last] - series.stamp_ns[first]) * 1e-9
-    due_s = (last - first) / series.rate_hz
+    due_s = (last - first) / rate_hz
     if not SPAN_S[0] < duration_s < SPAN_S[1] or abs(duration_s - due_s) > IRREGULAR_S:
         return False
     norms = np.linalg.norm(series.specific_force[first:last], axis=1)

@@ -93,14 +93,15 @@ def _inspect_walk(contents: Contents) -> None:
     with Console(stderr=True).status("looking for stances"):
         try:
             alone = track(contents.recording, unconstrained_config())
-            coupled = track(contents.recording)
+            stances, findings = stance_statistics(alone), [*walk_findings(alone)]
+            del alone  # before the next one: a walk of an hour takes most of a gigabyte
+            findings += coupled_findings(track(contents.recording))
         except DualFootError as error:
             finding = Finding(FindingKind.NOT_TRACKED, Severity.ERROR, str(error))
             contents.findings.append(finding)
             return
-    contents.stances.update(stance_statistics(alone))
-    contents.findings.extend(walk_findings(alone))
-    contents.findings.extend(coupled_findings(coupled))
+    contents.stances.update(stances)
+    contents.findings.extend(findings)
 
 
 def _facts(contents: Contents) -> dict[str, Any]:

@@ -109,18 +109,19 @@ def run_checked(
 ) -> Evaluation:
     """Pair, track and evaluate a recording that was found usable, with these ``findings``."""
     recording = _prepare(recording, options)
+    alone = list(_unconstrained_findings(recording, config)) if options.check_feet else []
     begin = time.process_time()
     trajectory = track(recording, config, options.priors)
     run_s = time.process_time() - begin
+    of_walk = [*start_findings(trajectory.events), *alone]
+    if options.check_feet:
+        of_walk += _walk_findings(recording, config, trajectory)
     evaluation = evaluate(
         trajectory,
         truth=truth_of(recording),
         reference=recording.reference,
         options=options.alignment,
     )
-    of_walk = list(start_findings(trajectory.events))
-    if options.check_feet:
-        of_walk += _walk_findings(recording, config, trajectory)
     return replace(
         evaluation,
         findings=(*findings, *of_walk),
@@ -176,14 +177,29 @@ def _prepare(recording: Recording, options: RunOptions) -> Recording:
     return replace(recording, reference=options.reference)
 
 
+def _unconstrained_findings(recording: Recording, config: TrackerConfig) -> Iterator[Finding]:
+    """Yield the findings on tracks without constraints, where ``config`` is for others.
+
+    They are made first, so that they are gone before those of ``config`` are there.
+    """
+    alone = unconstrained_config(config)
+    if _has_both_feet(recording, config) and config != alone:
+        yield from walk_findings(track(recording, alone))
+
+
 def _walk_findings(
     recording: Recording, config: TrackerConfig, trajectory: Trajectory
 ) -> Iterator[Finding]:
-    """Yield the findings on the tracks, most of which need tracks without constraints."""
-    both = recording.left and recording.right
-    if METHODS[config.method].sensors_on_one_shoe or not both:
+    """Yield the findings on the tracks themselves."""
+    if not _has_both_feet(recording, config):
         return
     alone = unconstrained_config(config)
-    yield from walk_findings(trajectory if config == alone else track(recording, alone))
+    if config == alone:
+        yield from walk_findings(trajectory)
     if config.method != alone.method:
         yield from coupled_findings(trajectory)
+
+
+def _has_both_feet(recording: Recording, config: TrackerConfig) -> bool:
+    on_both = not METHODS[config.method].sensors_on_one_shoe
+    return on_both and bool(recording.left) and bool(recording.right)

@@ -67,7 +67,8 @@ def find_same_samples(recording: Recording) -> Iterator[Finding]:
     left, right = recording.left, recording.right
     if left is None or right is None or min(len(left), len(right)) < LEAST_SAME:
         return
-    same = len(np.intersect1d(_marks(left), _marks(right)))
+    marks = np.sort(np.concatenate([_distinct(left), _distinct(right)]))
+    same = int((marks[1:] == marks[:-1]).sum())
     if same > max(LEAST_SAME, SAME_SHARE * min(len(left), len(right))):
         yield Finding(
             FindingKind.SAME_SAMPLES,
@@ -79,8 +80,8 @@ def find_same_samples(recording: Recording) -> Iterator[Finding]:
         )
 
 
-def _marks(series: ImuSeries) -> NDArray[np.uint64]:
-    """Return a number (N,) for the values of each sample, whatever its stamp; the same for equals.
+def _distinct(series: ImuSeries) -> NDArray[np.uint64]:
+    """Return a number for each of the different values of the samples, whatever their stamps.
 
     Others share one once in 10^19 pairs of samples.
     """
@@ -90,7 +91,9 @@ def _marks(series: ImuSeries) -> NDArray[np.uint64]:
     for column in bits.T:
         marks = (marks ^ column) * MIXER
         marks ^= marks >> np.uint64(29)
-    return marks
+    marks.sort()
+    distinct: NDArray[np.uint64] = marks[np.diff(marks, prepend=~marks[:1]) != 0]
+    return distinct
 
 
 def find_no_overlap(left: Quality, right: Quality) -> Iterator[Finding]:

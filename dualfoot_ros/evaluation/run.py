@@ -31,7 +31,7 @@ from ..settings import flat, load_config
 from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options
 from .notes import config_notes
-from .track import track, truth_of
+from .track import PairedSamples, pair_samples, track_walk, truth_of
 
 
 @dataclass(frozen=True)
@@ -109,13 +109,18 @@ def run_checked(
 ) -> Evaluation:
     """Pair, track and evaluate a recording that was found usable, with these ``findings``."""
     recording = _prepare(recording, options)
-    alone = list(_unconstrained_findings(recording, config)) if options.check_feet else []
     begin = time.process_time()
-    trajectory = track(recording, config, options.priors)
+    samples = pair_samples(recording)
     run_s = time.process_time() - begin
+    on_both = options.check_feet and _has_both_feet(recording, config)
+    alone = list(_unconstrained_findings(samples, config)) if on_both else []
+    begin = time.process_time()
+    trajectory = track_walk(samples, config, options.priors)
+    run_s += time.process_time() - begin
+    del samples
     of_walk = [*start_findings(trajectory.events), *alone]
-    if options.check_feet:
-        of_walk += _walk_findings(recording, config, trajectory)
+    if on_both:
+        of_walk += _walk_findings(config, trajectory)
     evaluation = evaluate(
         trajectory,
         truth=truth_of(recording),
@@ -177,22 +182,18 @@ def _prepare(recording: Recording, options: RunOptions) -> Recording:
     return replace(recording, reference=options.reference)
 
 
-def _unconstrained_findings(recording: Recording, config: TrackerConfig) -> Iterator[Finding]:
+def _unconstrained_findings(samples: PairedSamples, config: TrackerConfig) -> Iterator[Finding]:
     """Yield the findings on tracks without constraints, where ``config`` is for others.
 
     They are made first, so that they are gone before those of ``config`` are there.
     """
     alone = unconstrained_config(config)
-    if _has_both_feet(recording, config) and config != alone:
-        yield from walk_findings(track(recording, alone))
+    if config != alone:
+        yield from walk_findings(track_walk(samples, alone))
 
 
-def _walk_findings(
-    recording: Recording, config: TrackerConfig, trajectory: Trajectory
-) -> Iterator[Finding]:
+def _walk_findings(config: TrackerConfig, trajectory: Trajectory) -> Iterator[Finding]:
     """Yield the findings on the tracks themselves."""
-    if not _has_both_feet(recording, config):
-        return
     alone = unconstrained_config(config)
     if config == alone:
         yield from walk_findings(trajectory)

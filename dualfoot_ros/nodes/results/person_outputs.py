@@ -20,8 +20,9 @@ from ...core import (
 )
 from ...settings import FrameConfig, PathConfig, PersonConfig
 from ..ros import qos
+from ..ros.cdr_odometry import OdometryBytes
 from ..ros.diagnostics import key_values
-from ..ros.messages import fill_person, fill_smoothed, new_odometry
+from ..ros.messages import fill_person, fill_smoothed
 from ..ros.status import OK, WARN, Status
 from .rviz_markers import Markers
 from .step_outputs import PersonPath, step_message
@@ -43,8 +44,8 @@ class PersonOutputs:
         self._person = PersonTracker()
         self._smoother = Smoother(config.window, config.smoothed_rate)
         self.trust = TrustOutput(node, config.trust_limit)
-        self.message = new_odometry(frames.odom, frames.pedestrian)
-        self._smoothed = new_odometry(frames.odom, frames.pedestrian)
+        self.message = OdometryBytes(frames.odom, frames.pedestrian)
+        self._smoothed = OdometryBytes(frames.odom, frames.pedestrian)
         self._exact = node.create_publisher(Odometry, "odometry", qos.result())
         self._smooth = node.create_publisher(Odometry, "odometry/smoothed", qos.result())
 
@@ -68,12 +69,12 @@ class PersonOutputs:
         if person is None:
             return
         fill_person(self.message, person)
-        self._exact.publish(self.message)
+        self._exact.publish(self.message.data())
         turns = [e.turn for e in update.announced if e.kind is EventKind.HEADING]
         smoothed = self._smoother.add(person, moved=bool(turns))
         if smoothed is not None:
             fill_smoothed(self._smoothed, smoothed)
-            self._smooth.publish(self._smoothed)
+            self._smooth.publish(self._smoothed.data())
         if any(turn.joint for turn in turns):
             self.trust.clear()
         self.trust.add(person)

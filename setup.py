@@ -62,6 +62,7 @@ setup(
     ],
     extras_require={
         "ble": ["bleak>=0.21"],
+        "cluster": ["distributed>=2024.1"],
         "test": ["pytest", "hypothesis", "selenium>=4.20"],
         "dev": ["mypy", "pytest-xdist", "ruff", "setuptools", "types-PyYAML"],
         "docs": ["mkdocs>=1.6"],

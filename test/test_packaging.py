@@ -91,7 +91,7 @@ def test_colcon_test_finds_pytest(setup_arguments):
 
 ROS_PACKAGES = {"rclpy", "std_srvs", "launch", "launch_ros", "ament_index_python"}
 KEYS = {"serial": "python3-serial", "yaml": "python3-yaml"}
-OPTIONAL = {"bleak"}  # of the extra "ble"; a sentence says so where it is missing
+OPTIONAL = {"bleak", "distributed"}  # of extras; a sentence says so where one is missing
 BAGS = {"rosbags", "rosbag2_py"}  # one of them: the first from pip, the second with ROS
 DISTRIBUTIONS = {"serial": "pyserial", "yaml": "PyYAML"}
 

@@ -103,9 +103,16 @@ def add_align_argument(parser: Arguments, about: str) -> None:
 
 
 def add_jobs_argument(parser: Arguments) -> None:
-    """Add ``--jobs``."""
-    parser.add_argument(
+    """Add ``--jobs``, and ``--scheduler`` in its place."""
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument(
         "--jobs", metavar="N", type=int, help="processes (default: one for each core)"
+    )
+    group.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="run on a cluster of dask.distributed, such as tcp://host:8786; its workers need the "
+        "bags under the same paths",
     )
 
 

@@ -26,6 +26,7 @@ from .printing import print_failures, print_json, print_paths, progress, table_c
 if TYPE_CHECKING:
     from ..evaluation.batch import Case, Entry, Failure, Job
 
+CLUSTER_PROCESSES = 8  # for which the runs on one bag are divided, on a cluster of any size
 HELP = "run every method on one or many bags and put their figures side by side"
 EXAMPLES = """\
 examples:
@@ -93,7 +94,7 @@ def run(args: argparse.Namespace) -> int:
     if args.output is not None:
         check_directory(args.output, overwrite=args.overwrite)
     jobs = _jobs(args, _cases(args))
-    entries, failures = _run(jobs, args.jobs or default_jobs())
+    entries, failures = _run(jobs, args.jobs or default_jobs(), args.scheduler)
     print_failures("compare", failures)
     if not entries:
         return 2
@@ -136,18 +137,24 @@ def _jobs(args: argparse.Namespace, cases: Sequence[Case]) -> list[Job]:
         args.right_topic,
         args.allow_nan,
         for_feet(args.calibration),
+        "" if args.scheduler is None else str(Path.cwd()),
     )
     return [Job(bag, case, options, *rest) for bag in bags for case in cases]
 
 
-def _run(jobs: Sequence[Job], processes: int) -> tuple[list[Entry], dict[str, Failure]]:
+def _run(
+    jobs: Sequence[Job], processes: int, scheduler: str | None
+) -> tuple[list[Entry], dict[str, Failure]]:
     """Return the entries in the order of their jobs, and the failures by bag and case."""
-    from ..evaluation.batch import Failure, compare_one, run_each
+    from ..evaluation.batch import Failure, by_bag, compare_one, run_groups
 
+    groups = by_bag(jobs, processes if scheduler is None else CLUSTER_PROCESSES)
     entries: dict[int, Entry] = {}
     failures: dict[int, Failure] = {}
     with progress(f"{len(jobs)} runs") as update:
-        for count, done in enumerate(run_each(compare_one, jobs, processes), start=1):
+        for count, done in enumerate(
+            run_groups(compare_one, groups, processes, scheduler), start=1
+        ):
             if isinstance(done.result, Failure):
                 failures[done.index] = done.result
             else:

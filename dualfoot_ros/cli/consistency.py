@@ -66,7 +66,7 @@ def run(args: argparse.Namespace) -> int:
     if args.output is not None:
         check_directory(args.output, overwrite=args.overwrite)
     config = tracker_config(args)
-    walks, failures = _run(_jobs(args, config), args.jobs or default_jobs())
+    walks, failures = _run(_jobs(args, config), args.jobs or default_jobs(), args.scheduler)
     print_failures("consistency", failures)
     if not walks:
         return 2
@@ -87,13 +87,15 @@ def _jobs(args: argparse.Namespace, config: TrackerConfig) -> list[WalkJob]:
     return [WalkJob(seed, walk, sensor, config) for seed in seeds]
 
 
-def _run(jobs: Sequence[WalkJob], processes: int) -> tuple[list[WalkScores], dict[str, Failure]]:
+def _run(
+    jobs: Sequence[WalkJob], processes: int, scheduler: str | None
+) -> tuple[list[WalkScores], dict[str, Failure]]:
     from ..evaluation.batch import Failure, run_each, score_walk
 
     scores: dict[int, WalkScores] = {}
     failures: dict[str, Failure] = {}
     with progress(f"{len(jobs)} walks") as update:
-        for count, done in enumerate(run_each(score_walk, jobs, processes), start=1):
+        for count, done in enumerate(run_each(score_walk, jobs, processes, scheduler), start=1):
             if isinstance(done.result, Failure):
                 failures[f"walk of seed {jobs[done.index].seed}"] = done.result
             else:

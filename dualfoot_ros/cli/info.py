@@ -15,7 +15,7 @@ from .arguments import (
     load_bag,
     recording_name,
 )
-from .printing import print_error, print_json
+from .printing import print_error, print_json, status
 
 if TYPE_CHECKING:
     from .info_lines import Contents
@@ -77,9 +77,7 @@ def _inspect(args: argparse.Namespace) -> Contents:
 
 def _inspect_walk(contents: Contents) -> None:
     """Track the walk as ``evaluate`` does by default; add its stances, and what it shows."""
-    from rich.console import Console
-
-    from ..evaluation import track
+    from ..evaluation import pair_samples, track_walk
     from ..inspection import (
         Finding,
         FindingKind,
@@ -90,17 +88,19 @@ def _inspect_walk(contents: Contents) -> None:
         walk_findings,
     )
 
-    with Console(stderr=True).status("looking for stances"):
+    with status("looking for stances"):
         try:
-            alone = track(contents.recording, unconstrained_config())
-            coupled = track(contents.recording)
+            samples = pair_samples(contents.recording)
+            alone = track_walk(samples, unconstrained_config())
+            stances, findings = stance_statistics(alone), [*walk_findings(alone)]
+            del alone  # before the next one: a walk of an hour takes most of a gigabyte
+            findings += coupled_findings(track_walk(samples))
         except DualFootError as error:
             finding = Finding(FindingKind.NOT_TRACKED, Severity.ERROR, str(error))
             contents.findings.append(finding)
             return
-    contents.stances.update(stance_statistics(alone))
-    contents.findings.extend(walk_findings(alone))
-    contents.findings.extend(coupled_findings(coupled))
+    contents.stances.update(stances)
+    contents.findings.extend(findings)
 
 
 def _facts(contents: Contents) -> dict[str, Any]:

@@ -68,13 +68,31 @@ def progress(label: str) -> Iterator[Callable[[float], None]]:
 
     Nothing is shown when standard error is no terminal.
     """
+    if not _on_terminal():
+        yield lambda _: None
+        return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
     console = Console(stderr=True)
     columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
-    with Progress(
-        *columns, console=console, transient=True, disable=not console.is_terminal
-    ) as bar:
+    with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task(label, total=1.0)
         yield lambda share: bar.update(task, completed=share)
+
+
+@contextmanager
+def status(label: str) -> Iterator[None]:
+    """Show ``label`` and that something is going on, while the block runs on a terminal."""
+    if not _on_terminal():
+        yield
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status(label):
+        yield
+
+
+def _on_terminal() -> bool:
+    """Return whether standard error is a terminal; where it is not, rich need not be loaded."""
+    return sys.stderr.isatty()

@@ -10,7 +10,7 @@ from .plain import plain
 from .published import published_trajectory
 from .reports.demo_table import Report, demo_report
 from .run import RunOptions, run
-from .track import as_live, pair_samples, track, track_samples, truth_of
+from .track import as_live, pair_samples, track, track_samples, track_walk, truth_of
 
 __all__ = [
     "Align",
@@ -32,5 +32,6 @@ __all__ = [
     "run",
     "track",
     "track_samples",
+    "track_walk",
     "truth_of",
 ]

@@ -32,7 +32,7 @@ from ..settings import flat, load_config
 from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options
 from .notes import config_notes
-from .track import track, truth_of
+from .track import PairedSamples, pair_samples, track_walk, truth_of
 
 
 @dataclass(frozen=True)
@@ -111,17 +111,23 @@ def run_checked(
     """Pair, track and evaluate a recording that was found usable, with these ``findings``."""
     recording = _prepare(recording, options)
     begin = time.process_time()
-    trajectory = track(recording, config, options.priors)
+    samples = pair_samples(recording)
     run_s = time.process_time() - begin
+    on_both = options.check_feet and _has_both_feet(recording, config)
+    alone = list(_unconstrained_findings(samples, config)) if on_both else []
+    begin = time.process_time()
+    trajectory = track_walk(samples, config, options.priors)
+    run_s += time.process_time() - begin
+    del samples
+    of_walk = [*start_findings(trajectory.events), *rate_findings(trajectory), *alone]
+    if on_both:
+        of_walk += _walk_findings(config, trajectory)
     evaluation = evaluate(
         trajectory,
         truth=truth_of(recording),
         reference=recording.reference,
         options=options.alignment,
     )
-    of_walk = [*start_findings(trajectory.events), *rate_findings(trajectory)]
-    if options.check_feet:
-        of_walk += _walk_findings(recording, config, trajectory)
     return replace(
         evaluation,
         findings=(*findings, *of_walk),
@@ -177,14 +183,25 @@ def _prepare(recording: Recording, options: RunOptions) -> Recording:
     return replace(recording, reference=options.reference)
 
 
-def _walk_findings(
-    recording: Recording, config: TrackerConfig, trajectory: Trajectory
-) -> Iterator[Finding]:
-    """Yield the findings on the tracks, most of which need tracks without constraints."""
-    both = recording.left and recording.right
-    if METHODS[config.method].sensors_on_one_shoe or not both:
-        return
+def _unconstrained_findings(samples: PairedSamples, config: TrackerConfig) -> Iterator[Finding]:
+    """Yield the findings on tracks without constraints, where ``config`` is for others.
+
+    They are made first, so that they are gone before those of ``config`` are there.
+    """
     alone = unconstrained_config(config)
-    yield from walk_findings(trajectory if config == alone else track(recording, alone))
+    if config != alone:
+        yield from walk_findings(track_walk(samples, alone))
+
+
+def _walk_findings(config: TrackerConfig, trajectory: Trajectory) -> Iterator[Finding]:
+    """Yield the findings on the tracks themselves."""
+    alone = unconstrained_config(config)
+    if config == alone:
+        yield from walk_findings(trajectory)
     if config.method != alone.method:
         yield from coupled_findings(trajectory)
+
+
+def _has_both_feet(recording: Recording, config: TrackerConfig) -> bool:
+    on_both = not METHODS[config.method].sensors_on_one_shoe
+    return on_both and bool(recording.left) and bool(recording.right)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -38,6 +38,7 @@ class PairedSamples:
     pressure : air pressure by "left", "right" or "both", as it was measured
     fields : magnetic field by "left" or "right", as it was measured
     counters : of the time alignment, what became of the samples
+    stands : what the last stands tell of the gyro biases, kept for the next run of the samples
     """
 
     left: ImuSeries
@@ -45,6 +46,7 @@ class PairedSamples:
     pressure: Mapping[str, PressureSeries]
     fields: Mapping[str, FieldSeries]
     counters: Mapping[str, int]
+    stands: dict[Hashable, BiasPrior | None] = field(default_factory=dict, compare=False)
 
 
 def track(
@@ -67,7 +69,15 @@ def track(
     DualFootError
         What time alignment and tracker refuse: two recordings in one, no standstill.
     """
-    samples = pair_samples(recording)
+    return track_walk(pair_samples(recording), config, priors)
+
+
+def track_walk(
+    samples: PairedSamples,
+    config: TrackerConfig | None = None,
+    priors: Mapping[str, BiasPrior] | None = None,
+) -> Trajectory:
+    """Track paired samples in which somebody walks; raise as :func:`track`."""
     trajectory = track_samples(samples, config, priors)
     _check_walked(trajectory, samples.left)
     return trajectory
@@ -136,12 +146,21 @@ def bias_priors(
     priors = dict(known)
     if not config.alignment.last_stand:
         return priors
-    for foot, series in zip(FEET, (samples.left, samples.right), strict=True):
-        there = np.flatnonzero(~np.isnan(series.specific_force).any(axis=1))
-        after = bias_after(series[there], config)
+    for foot in FEET:
+        after = _last_stand(samples, foot, config)
         if after is not None:
             priors[foot] = after.also(priors.get(foot))
     return priors
+
+
+def _last_stand(samples: PairedSamples, foot: str, config: TrackerConfig) -> BiasPrior | None:
+    """Return what the last stand of a foot tells; the search is made once for like settings."""
+    key = foot, config.alignment, config.gravity, config.noise
+    if key not in samples.stands:
+        series = samples.left if foot == FEET[0] else samples.right
+        there = np.flatnonzero(~np.isnan(series.specific_force).any(axis=1))
+        samples.stands[key] = bias_after(series[there], config)
+    return samples.stands[key]
 
 
 def truth_of(recording: Recording) -> Truth | None:

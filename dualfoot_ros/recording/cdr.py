@@ -9,6 +9,7 @@ takes message by message.
 from __future__ import annotations
 
 import struct
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,27 +23,42 @@ TEXT = 12  # after seconds and nanoseconds
 
 
 def decode(
-    messages: list[bytes], doubles: int, texts: int = 1
+    messages: Sequence[bytes] | NDArray[np.uint8],
+    doubles: int,
+    texts: int = 1,
+    kept: Sequence[slice] = (slice(None),),
 ) -> tuple[IntArray, FloatArray, list[str]] | None:
-    """Return stamps (N,) ns, values (N, doubles) and the strings; None if layouts differ.
+    """Return stamps (N,) ns, values (N, K) and the strings; None if layouts differ.
 
-    ``texts`` strings follow the stamp, then ``doubles`` float64.  Little-endian messages only.
+    ``texts`` strings follow the stamp, then ``doubles`` float64, of which the columns ``kept`` are
+    returned.  Little-endian messages only; rows of bytes (N, length) have one layout in length.
     """
-    first = messages[0]
-    if first[:4] != LITTLE_ENDIAN or any(len(m) != len(first) for m in messages):
+    raw = _as_rows(messages)
+    first = b"" if raw is None else raw[0].tobytes()
+    if raw is None or first[:4] != LITTLE_ENDIAN:
         return None
     read = _read_texts(first, texts)
     if read is None or len(first) < read[2] + 8 * doubles:
         return None
     strings, lengths_at, start = read
-    raw = np.frombuffer(b"".join(messages), dtype=np.uint8).reshape(len(messages), len(first))
     if not all(_same(raw[:, at : at + 4]) for at in (0, *lengths_at)):
         return None
     clock = raw[:, STAMP:TEXT].copy()
     seconds = clock[:, :4].copy().view("<i4")[:, 0].astype(np.int64)
     nanoseconds = clock[:, 4:].copy().view("<u4")[:, 0].astype(np.int64)
-    values = raw[:, start : start + 8 * doubles].copy().view("<f8")
-    return seconds * 1_000_000_000 + nanoseconds, np.ascontiguousarray(values), strings
+    bounds = [part.indices(doubles) for part in kept]
+    parts = [raw[:, start + 8 * a : start + 8 * b].copy().view("<f8") for a, b, _ in bounds]
+    return seconds * 1_000_000_000 + nanoseconds, np.hstack(parts), strings
+
+
+def _as_rows(messages: Sequence[bytes] | NDArray[np.uint8]) -> NDArray[np.uint8] | None:
+    """Return the messages as (N, length) bytes; None where their lengths differ."""
+    if isinstance(messages, np.ndarray):
+        return messages
+    length = len(messages[0])
+    if any(len(message) != length for message in messages):
+        return None
+    return np.frombuffer(b"".join(messages), dtype=np.uint8).reshape(len(messages), length)
 
 
 def decode_one(

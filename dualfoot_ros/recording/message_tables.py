@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from ..core import FloatArray, IntArray, RecordingError
 from . import cdr
+from .storage.bag_source import Block
 from .topics import FIELD_TYPE, IMU_TYPE, PRESSURE_TYPE, TRUTH_TYPE, VECTOR_TYPE
 
 IMU_DOUBLES = 37  # orientation, its covariance, rate, covariance, specific force, covariance
@@ -19,11 +21,27 @@ RATE = slice(13, 16)
 FORCE = slice(25, 28)
 
 
+class _Layout(NamedTuple):
+    doubles: int
+    texts: int
+    kept: tuple[slice, ...]
+
+
+_LAYOUT = {
+    IMU_TYPE: _Layout(IMU_DOUBLES, 1, (RATE, FORCE)),
+    VECTOR_TYPE: _Layout(VECTOR_DOUBLES, 1, (slice(3),)),
+    FIELD_TYPE: _Layout(FIELD_DOUBLES, 1, (slice(3),)),
+    PRESSURE_TYPE: _Layout(PRESSURE_DOUBLES, 1, (slice(1),)),
+    TRUTH_TYPE: _Layout(TRUTH_DOUBLES, 2, (slice(7), slice(43, 46))),
+}
+
+
 @dataclass(frozen=True)
 class Table:
-    """All messages of one topic: stamps (N,) ns, values (N, doubles), strings of the first.
+    """All messages of one topic: stamps (N,) ns, values (N, K), strings of the first.
 
-    ``log_ns`` (N,) are the times at which the messages were logged.
+    ``log_ns`` (N,) are the times at which the messages were logged.  ``values`` are, by type, rate
+    and specific force (6), a vector or field (3), pressure (1), or pose and velocity (7 + 3).
     """
 
     stamp_ns: IntArray
@@ -31,47 +49,75 @@ class Table:
     texts: list[str]
     log_ns: IntArray
 
+    @property
+    def rate(self) -> FloatArray:
+        """Angular rate (N, 3) of a topic of samples, or all of a topic of vectors."""
+        return self.values[:, :3]
 
-def table(messages: list[bytes], log_ns: list[int], msgtype: str, topic: str) -> Table:
-    """Decode all ``messages`` of ``topic``, of type ``msgtype`` and logged at ``log_ns``.
-
-    Raises
-    ------
-    RecordingError
-        When a message cannot be decoded; names the topic and which message it is.
-    """
-    doubles, texts = _LAYOUT[msgtype]
-    logged = np.array(log_ns, dtype=np.int64)
-    if not messages:
-        empty = np.empty(0, dtype=np.int64)
-        return Table(empty, np.empty((0, doubles)), [""] * texts, logged)
-    fast = cdr.decode(messages, doubles, texts)
-    return Table(*(fast or _one_by_one(messages, msgtype, topic)), logged)
+    @property
+    def force(self) -> FloatArray:
+        """Specific force (N, 3) of a topic of samples, or all of a topic of vectors."""
+        return self.values[:, -3:]
 
 
-def _one_by_one(
-    messages: list[bytes], msgtype: str, topic: str
-) -> tuple[IntArray, FloatArray, list[str]]:
-    doubles, texts = _LAYOUT[msgtype]
-    stamps = np.empty(len(messages), dtype=np.int64)
-    values = np.empty((len(messages), doubles))
-    strings: list[str] = []
-    for i, data in enumerate(messages):
-        try:
-            stamps[i], values[i], found = cdr.decode_one(data, doubles, texts)
-        except ValueError as error:
-            raise RecordingError(
-                f"message {i} of topic '{topic}' is damaged ({error}); record again or cut the "
-                "bag before it"
-            ) from error
-        strings = strings or found
-    return stamps, values, strings
+class TableBuilder:
+    """A table in the making: every block is decoded when it comes, and only its values stay."""
 
+    def __init__(self, msgtype: str, topic: str) -> None:
+        self._topic, self._layout = topic, _LAYOUT[msgtype]
+        self._stamps: list[IntArray] = []
+        self._values: list[FloatArray] = []
+        self._logged: list[IntArray] = []
+        self._files: list[IntArray] = []
+        self._texts: list[str] = []
+        self._count = 0
+        self._sorted = True
 
-_LAYOUT = {
-    IMU_TYPE: (IMU_DOUBLES, 1),
-    VECTOR_TYPE: (VECTOR_DOUBLES, 1),
-    FIELD_TYPE: (FIELD_DOUBLES, 1),
-    PRESSURE_TYPE: (PRESSURE_DOUBLES, 1),
-    TRUTH_TYPE: (TRUTH_DOUBLES, 2),
-}
+    def add(self, block: Block) -> None:
+        """Decode the messages of a block.
+
+        Raises
+        ------
+        RecordingError
+            When a message cannot be decoded; names the topic and which message it is.
+        """
+        layout = self._layout
+        fast = cdr.decode(block.rows, layout.doubles, layout.texts, layout.kept)
+        stamps, values, texts = fast or self._one_by_one(block)
+        self._texts = self._texts or texts
+        self._stamps.append(stamps)
+        self._values.append(values)
+        self._logged.append(block.log_ns)
+        self._sorted = self._sorted and block.file is None
+        self._files.append(np.full(len(stamps), block.file or 0, dtype=np.int64))
+        self._count += len(stamps)
+
+    def table(self) -> Table:
+        """Return what was decoded, in the order of the recording."""
+        if not self._count:
+            empty = np.empty(0, dtype=np.int64)
+            columns = sum(len(range(*p.indices(self._layout.doubles))) for p in self._layout.kept)
+            return Table(empty, np.empty((0, columns)), [""] * self._layout.texts, empty)
+        stamps, logged = np.concatenate(self._stamps), np.concatenate(self._logged)
+        values, files = np.concatenate(self._values), np.concatenate(self._files)
+        self._values.clear()
+        if self._sorted or bool((np.diff(logged) >= 0).all() and (np.diff(files) >= 0).all()):
+            return Table(stamps, values, self._texts, logged)
+        order = np.lexsort((logged, files))
+        return Table(stamps[order], values[order], self._texts, logged[order])
+
+    def _one_by_one(self, block: Block) -> tuple[IntArray, FloatArray, list[str]]:
+        doubles, texts, kept = self._layout
+        stamps = np.empty(len(block.rows), dtype=np.int64)
+        values = np.empty((len(block.rows), doubles))
+        strings: list[str] = []
+        for i, data in enumerate(block.rows):
+            try:
+                stamps[i], values[i], found = cdr.decode_one(bytes(data), doubles, texts)
+            except ValueError as error:
+                raise RecordingError(
+                    f"message {self._count + i} of topic '{self._topic}' is damaged ({error}); "
+                    "record again or cut the bag before it"
+                ) from error
+            strings = strings or found
+        return stamps, np.hstack([values[:, part] for part in kept]), strings

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..core import RecordingError
-from .storage.bag_source import BagSource, Chained, Message, TopicInfo
+from .storage.bag_source import BagSource, Block, Chained, TopicInfo, in_blocks
 from .storage.bag_writer import NO_LIBRARY, has_rosbag2_py, has_rosbags
 from .storage.mcap_scan import McapScan
 from .storage.rosbag2_py_source import Rosbag2PySource
@@ -58,13 +58,16 @@ def opened(path: Path) -> Iterator[BagSource]:
         source.close()
 
 
-def iterate(path: Path, source: BagSource, topics: Collection[str]) -> Iterator[Message]:
-    """Yield every message of ``topics``; raise RecordingError where the bag is broken."""
+def iterate(path: Path, source: BagSource, topics: Collection[str]) -> Iterator[Block]:
+    """Yield every message of ``topics`` in blocks; raise RecordingError where the bag is broken.
+
+    A whole MCAP file comes by its chunks, anything else is gathered message by message.
+    """
     count = 0
     try:
-        for message in source.messages(topics):
-            yield message
-            count += 1
+        for block in _blocks(source, topics):
+            yield block
+            count += len(block.log_ns)
     except GeneratorExit:
         raise
     except Exception as error:
@@ -72,6 +75,12 @@ def iterate(path: Path, source: BagSource, topics: Collection[str]) -> Iterator[
             f"bag '{path}' is damaged behind {count} messages ({_reason(error)}); copy it again "
             "from where it was recorded, or record again"
         ) from error
+
+
+def _blocks(source: BagSource, topics: Collection[str]) -> Iterator[Block]:
+    if isinstance(source, RosbagsSource):
+        return source.blocks(topics)
+    return in_blocks(source.messages(topics))
 
 
 def _open(path: Path) -> BagSource:

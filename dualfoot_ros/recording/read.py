@@ -70,11 +70,7 @@ def read_logged(
     path = Path(path)
     topics = topics or Topics()
     raw = _read_raw(path, topics, progress)
-    tables = {
-        topic: table.decode(topic)
-        for topic, table in raw.topics.items()
-        if table.msgtype != INCREMENTS_TYPE
-    }
+    tables = {topic: raw.tables.pop(topic).table() for topic in list(raw.tables)}
     parts: dict[str, Any] = {}
     logged: dict[str, IntArray] = {}
     for foot in FEET:
@@ -96,17 +92,11 @@ def read_logged(
     return recording, logged
 
 
-class _RawTopic(NamedTuple):
-    msgtype: str
-    data: list[bytes]
-    log_ns: list[int]
-
-    def decode(self, topic: str) -> messages.Table:
-        return messages.table(self.data, self.log_ns, self.msgtype, topic)
-
-
 class _Raw(NamedTuple):
-    topics: dict[str, _RawTopic]
+    """What a bag holds: values by topic, the newest text by topic, and what it says of itself."""
+
+    tables: dict[str, messages.TableBuilder]
+    texts: dict[str, list[bytes]]
     notes: dict[str, str]
     imu_topics: tuple[str, ...]
     cut: str
@@ -114,20 +104,38 @@ class _Raw(NamedTuple):
 
 def _read_raw(path: Path, topics: Topics, progress: Progress | None) -> _Raw:
     expected = _expected_types(topics)
-    raw: dict[str, _RawTopic] = {}
     with opened(path) as source:
-        for topic, (msgtype, _) in source.topics.items():
-            if topic in expected and not _has_other_type(topic, msgtype, topics):
-                _check_type(topic, msgtype, expected[topic])
-                raw[topic] = _RawTopic(msgtype, [], [])
-        total = max(1, sum(source.topics[topic].messages for topic in raw))
-        for done, (topic, log_ns, data) in enumerate(iterate(path, source, raw)):
-            raw[topic].data.append(data)
-            raw[topic].log_ns.append(log_ns)
-            if progress is not None and done % 4096 == 0:
-                progress(min(1.0, done / total))
+        types = {
+            topic: msgtype
+            for topic, (msgtype, _) in source.topics.items()
+            if topic in expected and not _has_other_type(topic, msgtype, topics)
+        }
+        for topic, msgtype in types.items():
+            _check_type(topic, msgtype, expected[topic])
         others = sorted(t for t, info in source.topics.items() if info.msgtype == IMU_TYPE)
-        return _Raw(raw, _notes(source), tuple(others), source.cut)
+        raw = _Raw({}, {}, _notes(source), tuple(others), "")
+        for topic, msgtype in types.items():
+            if msgtype == INCREMENTS_TYPE:
+                raw.texts[topic] = []
+            else:
+                raw.tables[topic] = messages.TableBuilder(msgtype, topic)
+        _take_messages(path, source, raw, progress)
+        return raw._replace(cut=source.cut)
+
+
+def _take_messages(path: Path, source: BagSource, raw: _Raw, progress: Progress | None) -> None:
+    """Read the messages of all topics of ``raw`` into it."""
+    wanted = {*raw.tables, *raw.texts}
+    total = max(1, sum(source.topics[topic].messages for topic in wanted))
+    done = 0
+    for block in iterate(path, source, wanted):
+        if block.topic in raw.tables:
+            raw.tables[block.topic].add(block)
+        else:
+            raw.texts[block.topic][:] = [bytes(block.rows[-1])]
+        done += len(block.log_ns)
+        if progress is not None:
+            progress(min(1.0, done / total))
 
 
 def _expected_types(topics: Topics) -> dict[str, tuple[str, ...]]:
@@ -165,7 +173,7 @@ def _notes(source: BagSource) -> dict[str, str]:
 
 
 def _kind(raw: _Raw, topic: str) -> Increments | None:
-    return decode_kind(raw.topics[topic].data, topic) if topic in raw.topics else None
+    return decode_kind(raw.texts[topic], topic) if topic in raw.texts else None
 
 
 def _samples(
@@ -181,15 +189,14 @@ def _samples(
         return None if force is None else join(imu, force, kind)
     if field is not None and len(field.stamp_ns):
         magnetic = _on_stamps(imu, field)
-    rate, force_values = imu.values[:, messages.RATE], imu.values[:, messages.FORCE]
-    return Samples(ImuSeries(imu.stamp_ns, force_values, rate, magnetic, kind), imu.log_ns)
+    return Samples(ImuSeries(imu.stamp_ns, imu.force, imu.rate, magnetic, kind), imu.log_ns)
 
 
 def _on_stamps(imu: messages.Table, field: messages.Table) -> FloatArray:
     """Return the field (N, 3) at the stamps of the samples; nan where none was measured."""
     rows = np.full((len(imu.stamp_ns), 3), np.nan)
     _, at, source = np.intersect1d(imu.stamp_ns, field.stamp_ns, return_indices=True)
-    rows[at] = field.values[source, :3]
+    rows[at] = field.values[source]
     return rows
 
 
@@ -198,7 +205,7 @@ def _truth(truth: messages.Table | None) -> PoseSeries | None:
         return None
     from scipy.spatial.transform import Rotation
 
-    quaternion, body_velocity = truth.values[:, 3:7], truth.values[:, 43:46]
+    quaternion, body_velocity = truth.values[:, 3:7], truth.values[:, 7:]
     if not len(quaternion):
         return PoseSeries(truth.stamp_ns, truth.values[:, :3], quaternion, body_velocity)
     velocity = Rotation.from_quat(quaternion).apply(body_velocity)

@@ -33,17 +33,11 @@ def join(rate: messages.Table, force: messages.Table, kind: Increments | None = 
         forces = np.empty((0, 3))
     else:
         there = _has_neighbours(at_ns, known)
-        forces = _interpolate(at_ns[there], known, _vectors(force, messages.FORCE)[first])
-    rates = _vectors(rate, messages.RATE)[there]
+        forces = _interpolate(at_ns[there], known, force.force[first])
+    rates = rate.rate[there]
     return Samples(
         ImuSeries(rate.stamp_ns[there], forces, rates, increments=kind), rate.log_ns[there]
     )
-
-
-def _vectors(table: messages.Table, part: slice) -> FloatArray:
-    """Return the (N, 3) vectors of a Vector3Stamped topic, or of a half of an Imu topic."""
-    plain = table.values.shape[1] == messages.VECTOR_DOUBLES
-    return table.values if plain else table.values[:, part]
 
 
 def _has_neighbours(at_ns: IntArray, known_ns: IntArray) -> np.ndarray:

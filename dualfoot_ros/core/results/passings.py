@@ -12,6 +12,7 @@ Swings of less than 0.3 m (shuffling, turning on the spot) have no direction and
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -178,7 +179,7 @@ def _passing(
 
 def swing_around(stances: list[StanceEpochs], epoch: int) -> tuple[int, int] | None:
     """Return the epochs that bound the swing in which ``epoch`` lies, None within a stance."""
-    after = int(np.searchsorted([s.first for s in stances], epoch, side="right"))
+    after = bisect_right(stances, epoch, key=lambda stance: stance.first)
     if not 0 < after < len(stances) or stances[after - 1].last >= epoch:
         return None
     return stances[after - 1].last, stances[after].first

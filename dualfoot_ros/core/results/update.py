@@ -15,7 +15,9 @@ from .facing import NO_FACING, UNKNOWN_VARIANCE, Facing
 from .rows import matrices, zupt_event
 
 ONE_FOOT_STD = 0.4  # m, of the person about one foot
-POSE_SIGNS = np.repeat([1.0, -1.0], 3)  # position error, rotation error = -phi
+POSE_ROWS = np.concatenate([np.arange(3) + start for start in (lay.E_POS, lay.E_ATT)])
+POSE_SIGNS = np.outer(np.repeat([1.0, -1.0], 3), np.repeat([1.0, -1.0], 3))
+# position error, rotation error = -phi
 MEAN_ROWS = np.concatenate([np.arange(3) + start for start in (lay.E_POS, lay.E_ATT, lay.E_VEL)])
 MEAN_SIGNS = np.outer(np.repeat([1.0, -1.0, 1.0], 3), np.repeat([1.0, -1.0, 1.0], 3))
 
@@ -215,5 +217,5 @@ def pose_part(block: FloatArray) -> FloatArray:
     The filter's attitude error turns the estimate back to the truth, C_hat = (I - [phi x]) C; the
     rotation by which the estimate exceeds the truth is -phi, hence the signs of the cross part.
     """
-    keep = [lay.E_POS, lay.E_POS + 1, lay.E_POS + 2, lay.E_ATT, lay.E_ATT + 1, lay.E_ATT + 2]
-    return block[np.ix_(keep, keep)] * np.outer(POSE_SIGNS, POSE_SIGNS)
+    pose: FloatArray = block[POSE_ROWS[:, None], POSE_ROWS] * POSE_SIGNS
+    return pose

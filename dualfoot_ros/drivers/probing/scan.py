@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import socket
 import time
@@ -51,6 +50,8 @@ def bluetooth_devices(seconds: float = 5.0) -> list[Found]:
     """
     if util.find_spec("bleak") is None:
         raise SourceError("Bluetooth needs bleak: pip install 'dualfoot_ros[ble]'")
+    import asyncio
+
     from bleak import BleakScanner
 
     try:

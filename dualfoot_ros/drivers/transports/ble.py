@@ -8,16 +8,18 @@ which come by themselves.
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import re
 from dataclasses import dataclass
 from importlib import util
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...core import Parameters, SourceError, parameter
 from ..protocols.dot import PAYLOADS, DotConfig
 from .transport import POLL_S, Transport
+
+if TYPE_CHECKING:
+    import asyncio
 
 UUID = "1517{:04x}-4947-11e9-8646-d663bd873d93"
 CONTROL = 0x2001
@@ -92,6 +94,8 @@ class BleTransport(Transport):
 
     def open(self) -> None:
         """Connect and start the measurement; raise :class:`OSError` when that fails."""
+        import asyncio  # here, as it takes a while, and few have such a sensor
+
         self._loop = asyncio.new_event_loop()
         self._queue: asyncio.Queue[bytes | None] = asyncio.Queue()
         try:
@@ -103,6 +107,8 @@ class BleTransport(Transport):
 
     def read(self) -> bytes:
         """Return one notification; raise :class:`OSError` when the device has disconnected."""
+        import asyncio
+
         assert self._loop is not None
         try:
             data = self._loop.run_until_complete(asyncio.wait_for(self._queue.get(), POLL_S))
@@ -114,6 +120,8 @@ class BleTransport(Transport):
 
     def close(self) -> None:
         """Stop the measurement as far as that is possible, and disconnect."""
+        import asyncio
+
         loop, self._loop = self._loop, None
         if loop is None:
             return
@@ -123,6 +131,8 @@ class BleTransport(Transport):
         loop.close()
 
     async def _start(self) -> None:
+        import asyncio
+
         from bleak import BleakClient
 
         self._client = BleakClient(self._address, disconnected_callback=self._gone)

@@ -1,9 +1,9 @@
 """Many walks and many methods: comparison, Monte Carlo, worker processes."""
 
 from .cases import Case, Sweep, case_names, make_cases
-from .comparison import Entry, Job, compare_one
+from .comparison import Entry, Job, by_bag, compare_one
 from .monte_carlo import Score, WalkJob, WalkScores, score_walk, summarise
-from .parallel import Failure, default_jobs, run_each
+from .parallel import Failure, default_jobs, run_each, run_groups
 
 __all__ = [
     "Case",
@@ -14,11 +14,13 @@ __all__ = [
     "Sweep",
     "WalkJob",
     "WalkScores",
+    "by_bag",
     "case_names",
     "compare_one",
     "default_jobs",
     "make_cases",
     "run_each",
+    "run_groups",
     "score_walk",
     "summarise",
 ]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -24,6 +25,7 @@ from .cases import Case
 
 TRACK_POINTS = 1500
 NEAR_S = 0.25
+GROUPS_A_PROCESS = 4  # or more: the last ones leave few processes without work
 
 
 @dataclass(frozen=True)
@@ -31,7 +33,8 @@ class Job:
     """A case to run on a bag.
 
     ``left_topic`` and ``right_topic`` are None for the usual ones, or those found by name;
-    ``calibration`` is by foot.
+    ``calibration`` is by foot.  ``folder`` is where a relative ``bag`` lies, for a process that
+    works elsewhere.
     """
 
     bag: str
@@ -42,6 +45,24 @@ class Job:
     right_topic: str | None = None
     allow_nan: bool = False
     calibration: Mapping[str, Correction] = field(default_factory=dict)
+    folder: str = ""
+
+
+def by_bag(jobs: Sequence[Job], processes: int) -> list[list[tuple[int, Job]]]:
+    """Return the jobs with their indices in groups of one bag each, so that it is read once.
+
+    Where there are few bags for so many processes, the jobs of one make several groups.
+    """
+    bags: dict[str, list[tuple[int, Job]]] = {}
+    for index, job in enumerate(jobs):
+        bags.setdefault(job.bag, []).append((index, job))
+    parts = math.ceil(GROUPS_A_PROCESS * processes / max(1, len(bags))) if processes > 1 else 1
+    return [
+        own[start::count]
+        for own in bags.values()
+        for count in (min(parts, len(own)),)
+        for start in range(count)
+    ]
 
 
 @dataclass(frozen=True)
@@ -101,7 +122,7 @@ def compare_one(job: Job) -> Entry:
     """
     _check_repeatable(job)
     topics = job.left_topic, job.right_topic
-    recording, findings = _read(job.bag, topics, job.allow_nan, job.repeat)
+    recording, findings = _read(_path(job), topics, job.allow_nan, job.repeat)
     warm_up()
     options = RunOptions(alignment=job.options, calibration=job.calibration, check_feet=False)
     evaluation = run_checked(recording, job.case.config, options, findings)
@@ -114,6 +135,10 @@ def compare_one(job: Job) -> Entry:
         evaluation.run_s or 0.0,
         _tracks(evaluation),
     )
+
+
+def _path(job: Job) -> str:
+    return str(Path(job.folder) / job.bag)
 
 
 def _check_repeatable(job: Job) -> None:

@@ -9,6 +9,7 @@ from functools import partial
 from typing import Generic, TypeVar
 
 from ...core import DualFootError
+from .cluster import run_on_cluster
 from .workers import Workers
 
 Item = TypeVar("Item")
@@ -36,15 +37,23 @@ def default_jobs() -> int:
 
 
 def run_each(
-    function: Callable[[Item], Result], items: Sequence[Item], jobs: int
+    function: Callable[[Item], Result],
+    items: Sequence[Item],
+    jobs: int,
+    scheduler: str | None = None,
 ) -> Iterator[Done[Result]]:
     """Yield what ``function`` (of a module's top level) makes of every item, as they get done.
 
-    With one job nothing leaves this process.  An input that is refused (a DualFootError, or an
-    OSError) becomes a :class:`Failure`; any other exception ends everything.  When the caller
-    stops early, or a signal ends this process, the other processes end at once.
+    With one job nothing leaves this process; with a ``scheduler`` all is done by the workers of a
+    cluster (:mod:`.cluster`).  An input that is refused (a DualFootError, or an OSError) becomes a
+    :class:`Failure`; any other exception ends everything.  When the caller stops early, or a
+    signal ends this process, the other processes end at once.
     """
     attempt = partial(_attempt, function)
+    if scheduler is not None:
+        for index, result in run_on_cluster(attempt, items, scheduler):
+            yield Done(index, result)
+        return
     if jobs <= 1 or len(items) <= 1:
         for index, item in enumerate(items):
             yield Done(index, attempt(item))
@@ -52,6 +61,28 @@ def run_each(
     with Workers(attempt, min(jobs, len(items))) as workers:
         for index, result in workers.each(items):
             yield Done(index, result)
+
+
+def run_groups(
+    function: Callable[[Item], Result],
+    groups: Sequence[Sequence[tuple[int, Item]]],
+    jobs: int,
+    scheduler: str | None = None,
+) -> Iterator[Done[Result]]:
+    """Do as :func:`run_each` with items in groups, those of one in a row in one process.
+
+    Each item has its index with it.  Items that share what is slow to get (a recording) belong
+    into one group.
+    """
+    for done in run_each(partial(_attempt_all, function), groups, jobs, scheduler):
+        assert not isinstance(done.result, Failure)
+        yield from done.result
+
+
+def _attempt_all(
+    function: Callable[[Item], Result], group: Sequence[tuple[int, Item]]
+) -> list[Done[Result]]:
+    return [Done(index, _attempt(function, item)) for index, item in group]
 
 
 def _attempt(function: Callable[[Item], Result], item: Item) -> Result | Failure:

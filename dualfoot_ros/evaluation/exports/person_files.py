@@ -9,8 +9,10 @@ import numpy as np
 from ...core import FloatArray, PoseSeries
 from ..frames.association import seconds
 from ..person_track import PersonTrack
+from .number_text import integers, lines
 from .tum import write_tum
 
+DECIMALS = 6
 COLUMNS = (
     "stamp_ns,time_s,x_m,y_m,z_m,floor_m,heading_deg,walked_m,radius_95_m,"
     "cov_xx_m2,cov_xy_m2,cov_yy_m2,cov_zz_m2"
@@ -46,8 +48,7 @@ def _write_csv(path: Path, person: PersonTrack) -> Path:
             *(c[:, i, j] for i, j in ((0, 0), (0, 1), (1, 1), (2, 2))),
         ]
     )
-    with path.open("w", encoding="ascii", newline="\n") as file:
-        file.write(f"{COLUMNS}\n")
-        for stamp, row in zip(person.stamp_ns.tolist(), values.tolist(), strict=True):
-            file.write(f"{stamp}," + ",".join(f"{value:.6f}" for value in row) + "\n")
+    with path.open("wb") as file:
+        file.write(f"{COLUMNS}\n".encode())
+        file.writelines(lines(integers(person.stamp_ns), values, DECIMALS, ","))
     return path

@@ -10,13 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from ...core import FootTrajectory, PoseSeries
+from .number_text import lines, seconds
+
+DECIMALS = 9
 
 
 def write_tum(path: Path, track: FootTrajectory | PoseSeries) -> Path:
     """Write one track; the stamps keep their nanoseconds."""
-    seconds, nanoseconds = np.divmod(track.stamp_ns, 1_000_000_000)
     rows = np.hstack([track.position, track.quaternion])
-    with path.open("w", encoding="ascii") as file:
-        for s, ns, row in zip(seconds, nanoseconds, rows, strict=True):
-            file.write(f"{s}.{ns:09d} " + " ".join(f"{value:.9f}" for value in row) + "\n")
+    with path.open("wb") as file:
+        file.writelines(lines(seconds(track.stamp_ns), rows, DECIMALS, " "))
     return path

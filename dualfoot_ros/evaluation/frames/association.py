@@ -52,8 +52,15 @@ def within(stamp_ns: IntArray, truth: PoseSeries) -> np.ndarray:
     return inside
 
 
-def cut(track: FootTrajectory, keep: np.ndarray) -> FootTrajectory:
-    """Return the epochs of a track that the (N,) mask keeps."""
+def as_slice(keep: np.ndarray) -> np.ndarray | slice:
+    """Return the (N,) mask as a slice where it keeps one stretch: that needs no copy of a walk."""
+    at = np.flatnonzero(keep)
+    whole = len(at) > 0 and int(at[-1]) - int(at[0]) + 1 == len(at)
+    return slice(int(at[0]), int(at[-1]) + 1) if whole else keep
+
+
+def cut(track: FootTrajectory, keep: np.ndarray | slice) -> FootTrajectory:
+    """Return the epochs of a track that the (N,) mask or slice keeps."""
     return replace(track, **{name: value[keep] for name, value in vars(track).items()})
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ...core import FEET, EvaluationError, FloatArray, PoseSeries, Trajectory
-from .association import Footfalls, cut, truth_at, within
+from .association import Footfalls, as_slice, cut, truth_at, within
 from .yaw_transform import FIRST_STRIDES_M, Align, Pair, YawTransform, fit
 
 Truth = tuple[PoseSeries, PoseSeries]
@@ -38,7 +38,7 @@ Markers = Mapping[str, FloatArray]
 def overlap(trajectory: Trajectory, truth: Truth) -> tuple[Trajectory, Truth]:
     """Return the epochs that lie within the truth of both feet, and the truth at their stamps."""
     stamps = trajectory.left.stamp_ns
-    keep = within(stamps, truth[0]) & within(stamps, truth[1])
+    keep = as_slice(within(stamps, truth[0]) & within(stamps, truth[1]))
     left, right = cut(trajectory.left, keep), cut(trajectory.right, keep)
     relative = trajectory.relative_covariance[keep]
     known = (truth_at(stamps[keep], truth[0]), truth_at(stamps[keep], truth[1]))

@@ -71,12 +71,12 @@ def _foot(
     velocity = None
     if true.velocity is not None:
         velocity = _mean(foot.velocity - true.velocity, foot.velocity_covariance, at)
-    turned = attitude_error(foot.quaternion, true.quaternion)
-    return (
-        _mean(foot.position - true.position, foot.position_covariance, at),
-        velocity,
-        _mean(turned, foot.attitude_covariance, at),
-    )
+    attitude = float("nan")
+    if len(at):
+        turned = attitude_error(foot.quaternion[at], true.quaternion[at])
+        attitude = _mean(turned, foot.attitude_covariance[at], np.arange(len(at)))
+    position = _mean(foot.position - true.position, foot.position_covariance, at)
+    return position, velocity, attitude
 
 
 def attitude_error(estimate: FloatArray, truth: FloatArray) -> FloatArray:

@@ -2,25 +2,15 @@
 
 from __future__ import annotations
 
-from collections import deque
-from typing import NamedTuple
-
-from nav_msgs.msg import Path
-
-from ...core import Event, EventKind, FloatArray, FootEstimate
-from ..ros.messages import pose_stamped, set_time
+from ...core import Event, EventKind, FootEstimate
+from ..ros.cdr_path import PathBytes, PathPose
 
 
-class _Pose(NamedTuple):
-    stamp_ns: int
-    position: FloatArray
-    quaternion: FloatArray
-
-    def turned(self, event: Event) -> _Pose:
-        """Return the pose turned and moved as a HEADING event says."""
-        position = event.turn.positions(self.position[None])[0]
-        quaternion = event.turn.quaternions(self.quaternion[None])[0]
-        return _Pose(self.stamp_ns, position, quaternion)
+def turned(pose: PathPose, event: Event) -> PathPose:
+    """Return the pose turned and moved as a HEADING event says."""
+    position = event.turn.positions(pose.position[None])[0]
+    quaternion = event.turn.quaternions(pose.quaternion[None])[0]
+    return PathPose(pose.stamp_ns, position, quaternion)
 
 
 class FootPath:
@@ -30,16 +20,16 @@ class FootPath:
     """
 
     def __init__(self, foot: str, frame_id: str, length: int, period_s: float) -> None:
-        self._foot, self._frame_id = foot, frame_id
-        self._stances: deque[_Pose] = deque(maxlen=length - 1)
+        self._foot = foot
+        self._stances = PathBytes(frame_id, length - 1)
         self._period_ns = round(period_s * 1e9)
         self.clear()
 
     def clear(self) -> None:
         """Forget every pose."""
-        self._stances.clear()
-        self._newest: _Pose | None = None
-        self._standing: _Pose | None = None
+        self._stances.replace(())
+        self._newest: PathPose | None = None
+        self._standing: PathPose | None = None
         self._due_ns = 0
 
     def add(self, stamp_ns: int, estimate: FootEstimate, events: tuple[Event, ...]) -> None:
@@ -47,16 +37,14 @@ class FootPath:
         for event in events:
             if event.foot == self._foot:
                 self._add_event(event)
-        self._newest = _Pose(stamp_ns, estimate.position.copy(), estimate.quaternion.copy())
+        self._newest = PathPose(stamp_ns, estimate.position.copy(), estimate.quaternion.copy())
         if estimate.stance:
             self._standing = self._newest
 
     def _add_event(self, event: Event) -> None:
         if event.kind is EventKind.HEADING:
-            turned = [pose.turned(event) for pose in self._stances]
-            self._stances.clear()
-            self._stances.extend(turned)
-            self._standing = self._standing and self._standing.turned(event)
+            self._stances.replace([turned(pose, event) for pose in self._stances.poses])
+            self._standing = self._standing and turned(self._standing, event)
         elif event.kind is EventKind.STANCE_END and self._standing is not None:
             self._stances.append(self._standing)
             self._standing = None
@@ -68,12 +56,6 @@ class FootPath:
         self._due_ns = stamp_ns + self._period_ns
         return True
 
-    def message(self) -> Path:
-        """Return the path: a pose for each stance that is over, and the newest."""
-        poses = [*self._stances, *([self._newest] if self._newest else [])]
-        message = Path()
-        message.header.frame_id = self._frame_id
-        if poses:
-            set_time(message.header.stamp, poses[-1].stamp_ns)
-        message.poses = [pose_stamped(self._frame_id, *pose) for pose in poses]
-        return message
+    def message(self) -> bytes:
+        """Return the path as a message: a pose for each stance that is over, and the newest."""
+        return self._stances.data(self._newest)

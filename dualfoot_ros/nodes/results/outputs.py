@@ -14,7 +14,8 @@ from rclpy.node import Node
 from ...core import FEET, ConfigError, EventKind, Update
 from ...settings import FrameConfig, PathConfig, PersonConfig
 from ..ros import qos
-from ..ros.messages import fill_foot, new_odometry
+from ..ros.cdr_odometry import OdometryBytes
+from ..ros.messages import fill_foot, set_time
 from . import event_messages
 from .foot_path import FootPath
 from .person_outputs import PersonOutputs
@@ -42,7 +43,7 @@ class Outputs:
         """``gyro_density`` (rad/s/sqrt(Hz)) gives the noise of the published angular rate."""
         children = {"left": frames.left, "right": frames.right}
         self._gyro_density = gyro_density
-        self._feet = {f: new_odometry(frames.odom, children[f]) for f in FEET}
+        self._feet = {f: OdometryBytes(frames.odom, children[f]) for f in FEET}
         self.person = PersonOutputs(node, frames, person, path)
         self._odometry = {
             f: node.create_publisher(Odometry, f"{f}/odometry", qos.result()) for f in FEET
@@ -65,7 +66,7 @@ class Outputs:
         for before in update.earlier:
             self._catch_up(before)
         self._announce(update)
-        if update.left is None:
+        if update.row is None:
             return
         variance = self._rate_variance(update.stamp_ns)
         feet = [foot for foot, there in zip(FEET, present, strict=True) if there]
@@ -98,7 +99,7 @@ class Outputs:
         assert estimate is not None
         message, path, stamp_ns = self._feet[foot], self._paths[foot], update.stamp_ns
         fill_foot(message, stamp_ns, estimate, rate_variance)
-        self._odometry[foot].publish(message)
+        self._odometry[foot].publish(message.data())
         path.add(stamp_ns, estimate, update.announced)
         if path.due(stamp_ns):
             self._path_publishers[foot].publish(path.message())
@@ -136,17 +137,18 @@ class FrameBroadcaster:
         self._new: Any = TFMessage
         self._publisher = node.create_publisher(TFMessage, "/tf", qos.result(100))
 
-    def publish(self, odometry: Sequence[Odometry]) -> None:
+    def publish(self, odometry: Sequence[OdometryBytes]) -> None:
         """Send the pose of each message as a frame."""
         self._publisher.publish(
             self._new(transforms=[_to_transform(message) for message in odometry])
         )
 
 
-def _to_transform(odometry: Odometry) -> TransformStamped:
-    transform = TransformStamped(header=odometry.header, child_frame_id=odometry.child_frame_id)
-    position = odometry.pose.pose.position
-    translation = transform.transform.translation
-    translation.x, translation.y, translation.z = position.x, position.y, position.z
-    transform.transform.rotation = odometry.pose.pose.orientation
-    return transform
+def _to_transform(odometry: OdometryBytes) -> TransformStamped:
+    message = TransformStamped(child_frame_id=odometry.child_frame_id)
+    message.header.frame_id = odometry.frame_id
+    set_time(message.header.stamp, odometry.stamp_ns)
+    translation, rotation = message.transform.translation, message.transform.rotation
+    translation.x, translation.y, translation.z = odometry.position.tolist()
+    rotation.x, rotation.y, rotation.z, rotation.w = odometry.quaternion.tolist()
+    return message

@@ -21,8 +21,9 @@ from ...core import (
 )
 from ...settings import FrameConfig, PathConfig, PersonConfig
 from ..ros import qos
+from ..ros.cdr_odometry import OdometryBytes
 from ..ros.diagnostics import key_values
-from ..ros.messages import fill_person, fill_smoothed, new_odometry
+from ..ros.messages import fill_person, fill_smoothed
 from ..ros.status import OK, WARN, Status
 from .rviz_markers import Markers
 from .step_outputs import PersonPath, step_message
@@ -44,8 +45,8 @@ class PersonOutputs:
         self._person = PersonTracker()
         self._smoother = Smoother(config.window, config.smoothed_rate)
         self.trust = TrustOutput(node, config.trust_limit)
-        self.message = new_odometry(frames.odom, frames.pedestrian)
-        self._smoothed = new_odometry(frames.odom, frames.pedestrian)
+        self.message = OdometryBytes(frames.odom, frames.pedestrian)
+        self._smoothed = OdometryBytes(frames.odom, frames.pedestrian)
         self._exact = node.create_publisher(Odometry, "odometry", qos.result())
         self._smooth = node.create_publisher(Odometry, "odometry/smoothed", qos.result())
 
@@ -69,11 +70,11 @@ class PersonOutputs:
         if person is None:
             return
         fill_person(self.message, person)
-        self._exact.publish(self.message)
+        self._exact.publish(self.message.data())
         smoothed = self._follow(update, person)
         if smoothed is not None:
             fill_smoothed(self._smoothed, smoothed)
-            self._smooth.publish(self._smoothed)
+            self._smooth.publish(self._smoothed.data())
 
     def catch_up(self, update: Update) -> None:
         """Take an update whose time is past: into the steps and the path, without odometry."""

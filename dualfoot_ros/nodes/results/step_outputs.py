@@ -14,7 +14,8 @@ from rclpy.node import Node
 from ...core import Event, EventKind, FloatArray, PersonEstimate, Step, yaw_quaternion
 from ...settings import PathConfig
 from ..ros import qos
-from ..ros.messages import pose_stamped, set_time
+from ..ros.cdr_path import PathBytes, PathPose
+from ..ros.messages import set_time
 from ..ros.status import OK
 
 
@@ -52,14 +53,16 @@ class PersonPath:
 
     def __init__(self, node: Node, frame_id: str, config: PathConfig) -> None:
         """Publish on ``path`` of ``node``, at most once in ``config.period``."""
-        self._frame_id, self._period_ns = frame_id, round(config.period * 1e9)
+        self._period_ns = round(config.period * 1e9)
         self._publisher = node.create_publisher(Path, "path", qos.latched())
+        self._bytes = PathBytes(frame_id, config.length - 1)
         self._poses: deque[tuple[int, FloatArray, float]] = deque(maxlen=config.length - 1)
         self.clear()
 
     def clear(self) -> None:
         """Forget every pose."""
         self._poses.clear()
+        self._bytes.replace(())
         self._due_ns = 0
 
     def add(self, person: PersonEstimate, steps: Sequence[Step], events: Sequence[Event]) -> None:
@@ -69,6 +72,7 @@ class PersonPath:
                 self._turn(event)
         if steps:
             self._poses.append((person.stamp_ns, person.position, person.heading))
+            self._bytes.append(_pose(*self._poses[-1]))
         if person.stamp_ns >= self._due_ns:
             self._due_ns = person.stamp_ns + self._period_ns
             self._publisher.publish(self.message(person))
@@ -85,15 +89,12 @@ class PersonPath:
                 (stamp_ns, place, heading + event.turn.yaw)
                 for (stamp_ns, _, heading), place in zip(poses, moved, strict=True)
             )
+        self._bytes.replace(_pose(*pose) for pose in self._poses)
 
-    def message(self, person: PersonEstimate) -> Path:
-        """Return the path that ends with ``person``."""
-        newest = person.stamp_ns, person.position, person.heading
-        message = Path()
-        message.header.frame_id = self._frame_id
-        set_time(message.header.stamp, person.stamp_ns)
-        message.poses = [
-            pose_stamped(self._frame_id, stamp_ns, position, yaw_quaternion(heading))
-            for stamp_ns, position, heading in (*self._poses, newest)
-        ]
-        return message
+    def message(self, person: PersonEstimate) -> bytes:
+        """Return the path that ends with ``person``, as a message."""
+        return self._bytes.data(_pose(person.stamp_ns, person.position, person.heading))
+
+
+def _pose(stamp_ns: int, position: FloatArray, heading: float) -> PathPose:
+    return PathPose(stamp_ns, position, yaw_quaternion(heading))

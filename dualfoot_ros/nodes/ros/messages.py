@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import Pose, PoseStamped
-from nav_msgs.msg import Odometry
+from geometry_msgs.msg import Pose
 from sensor_msgs.msg import Imu
 
 from ...core import (
@@ -19,9 +18,11 @@ from ...core import (
     quaternion_yaw,
     yaw_quaternion,
 )
+from .cdr_odometry import OdometryBytes
 
 SECOND = 1_000_000_000
 LEAST_NORM = 1e-6  # of a quaternion; a smaller one is none
+RATES, LEVEL_RATES = [3, 4, 5], [3, 4]  # rows of a twist's covariance
 ROLLING_VARIANCE = 1.0e3  # (rad/s)^2; how the person rolls and pitches is not estimated
 
 
@@ -62,66 +63,54 @@ def set_pose(pose: Pose, position: FloatArray, quaternion: FloatArray) -> None:
     q.x, q.y, q.z, q.w = quaternion.tolist()
 
 
-def new_odometry(frame_id: str, child_frame_id: str) -> Odometry:
-    """Return an empty message between two frames."""
-    message = Odometry(child_frame_id=child_frame_id)
-    message.header.frame_id = frame_id
-    return message
-
-
-def fill_foot(message: Odometry, stamp_ns: int, foot: FootEstimate, rate_variance: float) -> None:
+def fill_foot(
+    message: OdometryBytes, stamp_ns: int, foot: FootEstimate, rate_variance: float
+) -> None:
     """Put a foot's estimate into ``message``; the twist in the child frame.
 
     ``rate_variance`` (rad/s)^2 is the noise of one angular rate.
     """
-    set_time(message.header.stamp, stamp_ns)
-    set_pose(message.pose.pose, foot.position, foot.quaternion)
-    message.pose.covariance = foot.pose_covariance().ravel()
+    message.stamp(stamp_ns)
+    message.position[:] = foot.position
+    message.quaternion[:] = foot.quaternion
+    message.pose_covariance[:] = foot.pose_covariance()
     to_body = quaternion_matrix(foot.quaternion).T
-    linear, angular = message.twist.twist.linear, message.twist.twist.angular
-    linear.x, linear.y, linear.z = (to_body @ foot.velocity).tolist()
-    angular.x, angular.y, angular.z = foot.angular_rate.tolist()
-    covariance = to_body @ foot.twist_covariance() @ to_body.T
-    message.twist.covariance = _twist_covariance(covariance, rate_variance)
+    message.linear[:] = to_body @ foot.velocity
+    message.angular[:] = foot.angular_rate
+    message.twist_covariance[:3, :3] = to_body @ foot.twist_covariance() @ to_body.T
+    message.twist_covariance[RATES, RATES] = rate_variance
 
 
-def fill_person(message: Odometry, person: PersonEstimate) -> None:
+def fill_person(message: OdometryBytes, person: PersonEstimate) -> None:
     """Put the person's estimate into ``message``; the twist in the child frame."""
     quaternion = yaw_quaternion(person.heading)
     to_body = quaternion_matrix(quaternion).T
-    set_time(message.header.stamp, person.stamp_ns)
-    set_pose(message.pose.pose, person.position, quaternion)
-    message.pose.covariance = person.pose_covariance.ravel()
-    _set_twist(message, to_body @ person.velocity, person.yaw_rate)
+    message.stamp(person.stamp_ns)
+    message.position[:], message.quaternion[:] = person.position, quaternion
+    message.pose_covariance[:] = person.pose_covariance
+    message.linear[:] = to_body @ person.velocity
     covariance = to_body @ person.velocity_covariance @ to_body.T
-    message.twist.covariance = _level_twist_covariance(covariance, person.yaw_rate_variance)
+    _set_level_twist(message, covariance, person.yaw_rate, person.yaw_rate_variance)
 
 
-def fill_smoothed(message: Odometry, person: SmoothedPerson) -> None:
+def fill_smoothed(message: OdometryBytes, person: SmoothedPerson) -> None:
     """Put the smoothed person into ``message``; the twist in the child frame."""
-    set_time(message.header.stamp, person.stamp_ns)
-    set_pose(message.pose.pose, person.position, yaw_quaternion(person.heading))
-    message.pose.covariance = person.pose_covariance.ravel()
-    _set_twist(message, person.velocity, person.yaw_rate)
-    message.twist.covariance = _level_twist_covariance(
-        person.velocity_covariance, person.yaw_rate_variance
-    )
+    message.stamp(person.stamp_ns)
+    message.position[:], message.quaternion[:] = person.position, yaw_quaternion(person.heading)
+    message.pose_covariance[:] = person.pose_covariance
+    message.linear[:] = person.velocity
+    variance = person.yaw_rate_variance
+    _set_level_twist(message, person.velocity_covariance, person.yaw_rate, variance)
 
 
-def _set_twist(message: Odometry, velocity: FloatArray, yaw_rate: float) -> None:
-    """Put velocity (3,) m/s in the child frame and yaw rate (rad/s) into ``message``."""
-    linear = message.twist.twist.linear
-    linear.x, linear.y, linear.z = velocity.tolist()
-    message.twist.twist.angular.z = yaw_rate
-
-
-def pose_stamped(frame_id: str, stamp_ns: int, position: FloatArray, q: FloatArray) -> PoseStamped:
-    """Return a pose with its stamp."""
-    message = PoseStamped()
-    message.header.frame_id = frame_id
-    set_time(message.header.stamp, stamp_ns)
-    set_pose(message.pose, position, q)
-    return message
+def _set_level_twist(
+    message: OdometryBytes, covariance: FloatArray, yaw_rate: float, variance: float
+) -> None:
+    """Put what is known of a twist into it: of roll and pitch rate, nothing."""
+    message.angular[2] = yaw_rate
+    message.twist_covariance[:3, :3] = covariance
+    message.twist_covariance[LEVEL_RATES, LEVEL_RATES] = ROLLING_VARIANCE
+    message.twist_covariance[5, 5] = variance
 
 
 def pose_of(pose: Pose) -> tuple[FloatArray, FloatArray]:
@@ -146,19 +135,3 @@ def pose_covariance(values: FloatArray) -> FloatArray | None:
     """
     known = np.array(values, dtype=np.float64).reshape(6, 6)[np.ix_(*[[0, 1, 2, 5]] * 2)]
     return known if known.any() else None
-
-
-def _twist_covariance(linear: FloatArray, rate_variance: float) -> FloatArray:
-    covariance = np.zeros((6, 6))
-    covariance[:3, :3] = linear
-    covariance[[3, 4, 5], [3, 4, 5]] = rate_variance
-    return covariance.ravel()
-
-
-def _level_twist_covariance(linear: FloatArray, yaw_rate_variance: float) -> FloatArray:
-    """Return the covariance (36,) of a twist of which roll and pitch rate are not known."""
-    covariance = np.zeros((6, 6))
-    covariance[:3, :3] = linear
-    covariance[[3, 4], [3, 4]] = ROLLING_VARIANCE
-    covariance[5, 5] = yaw_rate_variance
-    return covariance.ravel()

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
+BLOCK = 1 << 12  # messages that are handed on at once
 SEVERAL_TYPES = "several types"
 
 
@@ -23,6 +27,36 @@ class Message(NamedTuple):
     topic: str
     log_ns: int
     data: bytes
+
+
+class Block(NamedTuple):
+    """Messages of one topic that follow each other.
+
+    ``log_ns`` (K,) are the times they were logged at; ``rows`` is the CDR bytes, (K, length) where
+    all are of one length.  Blocks of one ``file`` are to be brought into the order of their log
+    times; where it is None, their order is that of the recording.
+    """
+
+    topic: str
+    log_ns: NDArray[np.int64]
+    rows: NDArray[np.uint8] | Sequence[bytes]
+    file: int | None = None
+
+
+def in_blocks(messages: Iterable[Message]) -> Iterator[Block]:
+    """Yield ``messages`` in blocks, each topic in its order."""
+    waiting: dict[str, list[Message]] = {}
+    for message in messages:
+        own = waiting.setdefault(message.topic, [])
+        own.append(message)
+        if len(own) == BLOCK:
+            yield _block(waiting.pop(message.topic))
+    yield from (_block(own) for own in waiting.values())
+
+
+def _block(messages: Sequence[Message]) -> Block:
+    logged = np.array([message.log_ns for message in messages], dtype=np.int64)
+    return Block(messages[0].topic, logged, [message.data for message in messages])
 
 
 class BagSource(Protocol):

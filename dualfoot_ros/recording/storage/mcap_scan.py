@@ -87,7 +87,7 @@ class McapScan:
         *_, size, _, _ = CHUNK_HEAD.unpack_from(record.content)
         records = _decompress(record.content)
         self._lacks = self._lacks or len(records) < size
-        yield from _split(records)
+        yield from split(records)
 
     def _message(self, content: bytes, topics: Collection[str] | None) -> Iterator[Message]:
         channel, _, log_ns, _ = MESSAGE_HEAD.unpack_from(content)
@@ -98,11 +98,11 @@ class McapScan:
     def _learn(self, opcode: int, content: bytes) -> None:
         """Take the name of a schema or of a channel, or the end of the data."""
         if opcode == SCHEMA:
-            self._schemas[_u16(content, 0)] = _text(content, 2)
+            self._schemas[u16(content, 0)] = text(content, 2)
         elif opcode == CHANNEL:
-            topic = _text(content, 4)
-            self._names[_u16(content, 0)] = topic
-            self._types[topic] = self._schemas.get(_u16(content, 2), "")
+            topic = text(content, 4)
+            self._names[u16(content, 0)] = topic
+            self._types[topic] = self._schemas.get(u16(content, 2), "")
         elif opcode == DATA_END:
             self._ended = True
 
@@ -128,10 +128,10 @@ def _decompress(chunk: bytes) -> bytes:
     length = CHUNK_HEAD.unpack_from(chunk)[4]
     start = CHUNK_HEAD.size + length + 8  # behind the size of the records
     name = chunk[CHUNK_HEAD.size : start - 8].decode("utf-8", "replace")
-    return _decompressor(name)(chunk[start:])
+    return decompressor(name)(chunk[start:])
 
 
-def _split(records: bytes) -> Iterator[Record]:
+def split(records: bytes) -> Iterator[Record]:
     """Yield the records that follow each other in the bytes, as many as are whole."""
     at = 0
     while at + HEAD.size <= len(records):
@@ -142,7 +142,7 @@ def _split(records: bytes) -> Iterator[Record]:
         yield Record(opcode, records[at - length : at])
 
 
-def _decompressor(name: str) -> Callable[[bytes], bytes]:
+def decompressor(name: str) -> Callable[[bytes], bytes]:
     """Return what decompresses as much as there is of a stream compressed by ``name``."""
     if name == "":
         return lambda data: data
@@ -174,11 +174,12 @@ def _in_pieces(
     return bytes(found)
 
 
-def _u16(content: bytes, at: int) -> int:
+def u16(content: bytes, at: int) -> int:
+    """Return the number of two bytes at ``at``."""
     return int.from_bytes(content[at : at + 2], "little")
 
 
-def _text(content: bytes, at: int) -> str:
+def text(content: bytes, at: int) -> str:
     """Return the text at ``at``, behind its length of four bytes."""
     length = int.from_bytes(content[at : at + 4], "little")
     return content[at + 4 : at + 4 + length].decode("utf-8", "replace")

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import cdr
 from ..topics import INCREMENTS_TYPE, TRUTH_TYPE
-from .bag_source import SEVERAL_TYPES, Message, TopicInfo
+from .bag_source import SEVERAL_TYPES, Block, Message, TopicInfo, in_blocks
+from .mcap_chunks import McapChunks
 
 if TYPE_CHECKING:
     from rosbags.rosbag1 import Reader as Reader1
@@ -37,6 +39,28 @@ class RosbagsSource:
         if wanted:  # no connection means all of them to the reader
             for connection, log_ns, data in self._reader.messages(wanted):
                 yield Message(connection.topic, log_ns, data)
+
+    def blocks(self, topics: Collection[str]) -> Iterator[Block]:
+        """Yield the messages of ``topics`` in blocks: by chunks where the files have any."""
+        files = self._chunked_files()
+        if files is None:
+            yield from in_blocks(self.messages(topics))
+        else:
+            for file in files:
+                yield from file.blocks(topics)
+
+    def _chunked_files(self) -> list[McapChunks] | None:
+        """Return the files of the bag by their chunks; None where they cannot be read so."""
+        storage = self._reader.storage
+        parts = getattr(storage, "storages", [storage])
+        paths = [Path(part.path) for part in parts if hasattr(part, "path")]
+        whole = storage.metadata.compression_mode != "message" and len(paths) == len(parts)
+        if not whole or any(path.suffix != ".mcap" for path in paths):
+            return None
+        try:
+            return [McapChunks(path, number) for number, path in enumerate(paths)]
+        except (ValueError, OSError, struct.error):
+            return None
 
     def close(self) -> None:
         """Close the files."""

@@ -3,6 +3,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from nav_msgs.msg import Path
+from rclpy.serialization import deserialize_message
 
 from dualfoot_ros.core import YawTurn, yaw_quaternion
 from dualfoot_ros.core.results.events import Event, EventKind
@@ -34,7 +36,7 @@ def walked(path, stances):
 
 
 def places(path):
-    return [pose.pose.position.x for pose in path.message().poses]
+    return [pose.pose.position.x for pose in deserialize_message(path.message(), Path).poses]
 
 
 def test_a_path_has_one_pose_a_stance_and_the_newest():
@@ -55,7 +57,7 @@ def test_events_of_the_other_foot_leave_a_path_alone():
 def test_a_heading_turns_the_path_so_far():
     path = walked(FootPath("left", "odom", 100, 1.0), 3)
     path.add(9 * SECOND, estimate(0.0, 3.0, yaw=math.pi / 2), (heading(math.pi / 2),))
-    poses = path.message().poses
+    poses = deserialize_message(path.message(), Path).poses
     assert [p.pose.position.x for p in poses] == pytest.approx([0.0, 0.0, 0.0, 0.0], abs=1e-12)
     assert [p.pose.position.y for p in poses] == pytest.approx([0.0, 1.0, 2.0, 3.0])
     assert poses[0].pose.orientation.z == pytest.approx(math.sin(math.pi / 4))

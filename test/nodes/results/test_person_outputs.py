@@ -5,6 +5,8 @@ import math
 
 import numpy as np
 import pytest
+from nav_msgs.msg import Path
+from rclpy.serialization import deserialize_message
 from visualization_msgs.msg import MarkerArray
 
 from dualfoot_ros.core import DualFootTracker, ImuPair, Step, Trust
@@ -58,7 +60,7 @@ def test_path_and_markers_have_a_place_for_each_step(bench, walk_bag):
     assert made > 500
     bench.until(lambda: got, "markers")
     person = outputs._person.add(update)
-    path = outputs._path.message(person)
+    path = deserialize_message(outputs._path.message(person), Path)
     drawn = outputs._markers.message(update, person).markers
     spaces = {marker.ns for marker in drawn}
     assert spaces == {"feet", "footprints", "covariance", "constraint"}

@@ -13,7 +13,7 @@ from ...evaluate import Evaluation
 from ...frames.association import Footfalls
 from ...metrics.accuracy import heading_error
 from ...metrics.heading_split import split
-from .style import FOOT, GREEN, LINES, PINK, legend_above, new_figure, save
+from .style import FOOT, GREEN, LINES, PINK, legend_above, new_figure, save, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,10 +30,11 @@ def draw_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
             track = run.feet_tracks[foot]
             walked = Footfalls.of(track).walked(truth.position, truth.stamp_ns)
             error = np.linalg.norm(track.position - truth.position, axis=1)
+            some, label = thinned(len(error)), f"{name} {foot}"
+            line = walked[some], error[some]
             # On a long walk both lie on each other: the first is wide, so that both show.
             width = WIDE if foot == FEET[0] else NARROW
-            label = f"{name} {foot}"
-            axes[0, 0].plot(walked, error, style, color=FOOT[foot], lw=width, label=label)
+            axes[0, 0].plot(*line, style, color=FOOT[foot], lw=width, label=label)
             turn = heading_error(track.quaternion, truth.quaternion)
             turns.append(_in_stance(turn, track.stance))
         _heading(axes[1, 0], walked, turns, style, name)
@@ -60,7 +61,9 @@ def _in_stance(values: FloatArray, stance: np.ndarray) -> FloatArray:
 def _heading(
     axis: Axes, walked: FloatArray, turns: list[FloatArray], style: str, name: str
 ) -> None:
-    common, difference = (np.degrees(part) for part in split(turns[0], turns[1]))
+    some = thinned(len(walked))
+    common, difference = (np.degrees(part)[some] for part in split(turns[0], turns[1]))
+    walked = walked[some]
     axis.plot(walked, common, style, color=GREEN, lw=1.1, label=f"{name} common")
     axis.plot(
         walked, difference, style, color=PINK, lw=1.1, label=f"{name} difference (left - right)"

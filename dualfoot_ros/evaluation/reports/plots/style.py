@@ -19,6 +19,9 @@ PINK = "#CC79A7"
 COLUMNS_AN_INCH = 11
 """Letters of a title of the usual size."""
 
+MOST_POINTS = 20_000
+"""Of a line: many times the pixels of a figure."""
+
 LINES = ("-", "--", ":", "-.")
 
 
@@ -59,6 +62,11 @@ def legend_above(axis: Axes, columns: int = 4) -> None:
         fontsize=8,
         frameon=False,
     )
+
+
+def thinned(count: int) -> slice:
+    """Return which of so many points of a line are drawn: all, or every k-th of a long walk."""
+    return slice(None, None, max(1, count // MOST_POINTS))
 
 
 def save(figure: Figure, path: Path) -> Path:

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ....core import FEET
+from ....core import FEET, FloatArray
 from ...evaluate import Evaluation
 from ...exports import FloorPlan
 from ...frames.association import Footfalls
 from ...person_track import person_track
-from .style import FOOT, MARKER, TRUTH, new_figure, save, wrapped
+from .style import FOOT, MARKER, TRUTH, new_figure, save, thinned, wrapped
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -66,7 +66,7 @@ def _panel_size(runs: Mapping[str, Evaluation]) -> tuple[float, float]:
 def _panel(axis: Axes, run: Evaluation) -> None:
     for number, truth in enumerate(run.truth or ()):
         label = "truth" if number == 0 else None
-        axis.plot(*truth.position[:, :2].T, color=TRUTH, linewidth=3.6, label=label)
+        axis.plot(*_from_above(truth.position), color=TRUTH, linewidth=3.6, label=label)
     for foot, points in run.markers.items() if run.aligned_to == "markers" else ():
         axis.plot(
             *points[:, :2].T,
@@ -81,7 +81,9 @@ def _panel(axis: Axes, run: Evaluation) -> None:
         stood = Footfalls.of(track).mean(track.position)
         # On a long walk both lines lie on each other: the first is wide, so that both show.
         width = WIDE if foot == FEET[0] and len(stood) > MOST_DOTS else 0.9
-        axis.plot(*track.position[:, :2].T, color=colour, linewidth=width, label=f"{foot} foot")
+        axis.plot(
+            *_from_above(track.position), color=colour, linewidth=width, label=f"{foot} foot"
+        )
         if len(stood) <= MOST_DOTS:
             axis.plot(*stood[:, :2].T, ".", color=colour, markersize=4)
     _ends(axis, run)
@@ -107,6 +109,12 @@ def _lay_under(axis: Axes, run: Evaluation, plan: FloorPlan) -> None:
         zorder=0,
     )
     axis.set(xlim=limits[0], ylim=limits[1])
+
+
+def _from_above(position: FloatArray) -> FloatArray:
+    """Return x and y (2, K) of a line through (N, 3) positions, to its end."""
+    shown = position[thinned(len(position)), :2]
+    return np.vstack([shown, position[-1:, :2]]).T
 
 
 def _ends(axis: Axes, run: Evaluation) -> None:

@@ -1,0 +1,76 @@
+"""MCAP files by their chunks: the messages are those that come one by one, in the same order."""
+
+import numpy as np
+import pytest
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
+
+from dualfoot_ros.core import RecordingError
+from dualfoot_ros.recording import cdr, read_bag, read_logged, write_bag
+from dualfoot_ros.recording.open_bag import opened
+from dualfoot_ros.recording.storage.bag_source import in_blocks
+from dualfoot_ros.recording.storage.mcap_chunks import McapChunks
+from dualfoot_ros.recording.storage.mcap_scan import CHUNK_HEAD, HEAD
+from dualfoot_ros.recording.topics import IMU_TYPE
+
+from .samples import recording
+
+TOPIC = "/left/imu/data_raw"
+
+
+def messages_of(blocks):
+    """Return the log times and bytes by topic; those of one file in the order of their times."""
+    found = {}
+    for block in blocks:
+        rows = [(int(t), bytes(row)) for t, row in zip(block.log_ns, block.rows, strict=True)]
+        found.setdefault(block.topic, []).extend(rows)
+    return {topic: sorted(rows, key=lambda row: row[0]) for topic, rows in found.items()}
+
+
+def test_the_chunks_hold_what_comes_message_by_message(tmp_path):
+    bag = write_bag(tmp_path / "bag", recording())
+    with opened(bag) as source:
+        topics = list(source.topics)
+        assert source._chunked_files() is not None
+        chunked = messages_of(source.blocks(topics))
+        single = messages_of(in_blocks(source.messages(topics)))
+    assert chunked == single and chunked
+
+
+def disordered(path, log_ns, frames):
+    """Write samples with these log times, and frames that may differ in length."""
+    types = get_typestore(Stores.ROS2_JAZZY)
+    with Writer(path, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connection = writer.add_connection(TOPIC, IMU_TYPE, typestore=types)
+        for k, (log, frame) in enumerate(zip(log_ns, frames, strict=True)):
+            values = np.full((1, 37), float(k))
+            row = cdr.encode(np.array([10**18 + k]), values, (frame,))
+            writer.write(connection, log, row.tobytes())
+    return path
+
+
+@pytest.mark.parametrize("frames", [["imu"] * 4, ["imu", "a longer name", "imu", "x"]])
+def test_messages_come_in_the_order_of_their_log_times(tmp_path, frames):
+    bag = disordered(tmp_path / "bag", [30, 10, 20, 20], frames)
+    found, logged = read_logged(bag)
+    assert logged["left"].tolist() == [10, 20, 20, 30]
+    assert found.left.angular_rate[:, 0].tolist() == [1.0, 2.0, 3.0, 0.0]
+
+
+def test_a_chunk_that_cannot_be_decompressed_is_refused(tmp_path):
+    bag = write_bag(tmp_path / "bag", recording())
+    (file,) = bag.glob("*.mcap")
+    place = McapChunks(file, 0)._chunks[0]
+    data = bytearray(file.read_bytes())
+    compressed = HEAD.size + CHUNK_HEAD.size + len("zstd") + 8
+    data[place.start + compressed] ^= 0xFF
+    file.write_bytes(data)
+    with pytest.raises(RecordingError, match="is damaged behind 0 messages"):
+        read_bag(bag)
+
+
+def test_a_file_without_an_index_has_no_chunks_to_read(tmp_path):
+    file = tmp_path / "none.mcap"
+    file.write_bytes(bytes(100))
+    with pytest.raises(ValueError, match="no summary"):
+        McapChunks(file, 0)

@@ -29,25 +29,27 @@ class StampGap:
         self._behind_ns = dict.fromkeys(FEET, 0)  # the most, since the last report
         self._pairs = self._late = 0
         self._refused: Mapping[str, int] = aligner.counters
-        self._unpaired_s: float | None = None  # since when both deliver and no pair is made
+        self._unpaired_s = 0.0  # since when both deliver and no pair is made
 
     def observe(self, foot: str, stamp_ns: int) -> None:
         """Take the stamp of a sample that is given to the aligner."""
-        self._newest_ns[foot], self._seen_s[foot] = stamp_ns, time.monotonic()
-        other_ns = self._newest_ns.get(_other(foot))
+        other, now_s = _other(foot), time.monotonic()
+        pairs = self._aligner.pairs_of_both
+        if pairs != self._pairs or now_s - self._seen_s.get(other, -DELIVERS_S) >= DELIVERS_S:
+            self._pairs, self._unpaired_s = pairs, now_s
+        self._newest_ns[foot], self._seen_s[foot] = stamp_ns, now_s
+        other_ns = self._newest_ns.get(other)
         if other_ns is not None:
             self._behind_ns[foot] = max(self._behind_ns[foot], other_ns - stamp_ns)
 
     def describe(self, status: Status) -> None:
         """Add to a status how far the stamps are apart, and the samples lost by it."""
         counters = self._aligner.counters
-        pairs = counters["pairs"] - sum(counters[f"{foot}_missing"] for foot in FEET)
-        paired, late = pairs - self._pairs, counters["late"] - self._late
-        self._pairs, self._late = pairs, counters["late"]
+        late, self._late = counters["late"] - self._late, counters["late"]
         refused = self._refused_most(counters)
         if len(self._newest_ns) == len(FEET):
             status.values["right less left, newest stamps (s)"] = 1e-9 * self._right_less_left_ns()
-        if self._is_unpaired(paired):
+        if self._is_unpaired():
             apart = abs(self._right_less_left_ns()) > self._aligner.config.max_delay_ns
             status.note(self._gap_finding() if apart else _find_no_pairs(refused))
         elif late > 0:
@@ -73,18 +75,13 @@ class StampGap:
         most, words = max(found)
         return (words, most) if most > 0 else ("", 0)
 
-    def _is_unpaired(self, paired: int) -> bool:
+    def _is_unpaired(self) -> bool:
         """Return whether both feet deliver and have made no pair of both for some seconds."""
         now_s = time.monotonic()
         deliver = len(self._seen_s) == len(FEET) and (
             now_s - min(self._seen_s.values()) < DELIVERS_S
         )
-        if paired > 0 or not deliver:
-            self._unpaired_s = None
-            return False
-        if self._unpaired_s is None:
-            self._unpaired_s = now_s
-        return now_s - self._unpaired_s >= UNPAIRED_S
+        return deliver and now_s - self._unpaired_s >= UNPAIRED_S
 
     def _gap_finding(self) -> Finding:
         right_less_left_s = 1e-9 * self._right_less_left_ns()

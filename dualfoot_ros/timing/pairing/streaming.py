@@ -75,6 +75,12 @@ class Aligner:
         return self._jumps.shift_ns[foot]
 
     @property
+    def pairs_of_both(self) -> int:
+        """How many pairs had a sample of each foot."""
+        made = self._outcomes
+        return made["pairs"] - made["left_missing"] - made["right_missing"]
+
+    @property
     def clocks_set(self) -> int:
         """How often the clock of a foot was set, or the stamps of both went back."""
         return sum(self._jumps.jumps.values()) + self._outcomes["restarts"]

@@ -22,10 +22,6 @@ class Bench:
         self.stamp_ns = dict.fromkeys(FEET, 10**12)
         monkeypatch.setattr(module.time, "monotonic", lambda: self.now_s)
 
-    def pairs_of_both(self):
-        counters = self.aligner.counters
-        return counters["pairs"] - sum(counters[f"{foot}_missing"] for foot in FEET)
-
     def run(self, seconds, feet=FEET, broken=""):
         """Let the feet deliver for that time; return the last report of one a second.
 
@@ -54,7 +50,7 @@ def feet(monkeypatch):
 def test_feet_that_never_pair_are_an_error_with_foot_difference_and_remedy(feet, behind):
     feet.stamp_ns[behind] -= 162_500_000_000
     status = feet.run(5.0)
-    assert feet.pairs_of_both() == 0 and status.level == ERROR
+    assert feet.aligner.pairs_of_both == 0 and status.level == ERROR
     assert f"the {behind} foot are 162.5 s behind" in status.message
     sign = 1.0 if behind == "right" else -1.0
     assert f"add {sign * 162.5:.3f} s with stamping.right_offset" in status.message
@@ -71,7 +67,7 @@ def test_the_offset_that_is_named_brings_the_feet_together(feet):
     offset_s = float(feet.run(5.0).message.split("add ")[1].split(" s ")[0])
     feet.aligner.reset()
     feet.stamp_ns["right"] += round(1e9 * offset_s)
-    assert feet.run(5.0).level == OK and feet.pairs_of_both() > 300
+    assert feet.run(5.0).level == OK and feet.aligner.pairs_of_both > 300
 
 
 def test_feet_in_time_raise_no_finding(feet):
@@ -94,7 +90,8 @@ def test_a_foot_that_is_now_and_then_too_late_is_a_warning_with_its_name(feet):
 
 def test_feet_that_deliver_and_never_pair_for_another_reason_are_said_with_it(feet):
     feet.run(1.0)
-    status = feet.run(4.0, broken="right")
+    assert feet.run(1.99, broken="right").level == OK
+    status = feet.run(1.01, broken="right")  # the first report after two seconds
     (finding,) = status.of_kind(FindingKind.NO_PAIRS)
     assert finding.severity is Severity.ERROR
     assert "values that are not finite, of the right foot" in finding.text

@@ -63,6 +63,12 @@ def test_quoted_cells_may_stand_between_spaces(tmp_path):
     np.testing.assert_allclose(found.specific_force, FOOT.specific_force, atol=1e-6)
 
 
+def test_a_column_without_values_is_named(tmp_path):
+    cells = [[*row[:2], "", *row[3:]] for row in rows()]
+    with pytest.raises(RecordingError, match=r"'ay' is empty in 240 of 240 rows.*--columns"):
+        read(write(tmp_path, cells))
+
+
 @pytest.mark.parametrize("word", ["#DIV/0!", "1.2.3", "12abc", "1_000"])
 def test_a_cell_that_is_no_number_is_named_by_line_and_column(tmp_path, word):
     cells = rows()

@@ -58,6 +58,13 @@ def test_empty_cells_may_be_quoted_words(tmp_path, gap, quote, delimiter):
     assert len(good) == len(FOOT) - 1
 
 
+def test_names_may_be_those_of_a_german_export(tmp_path):
+    force = [f"Beschleunigung {a} (m/s^2)" for a in "xyz"]
+    rate = [f"Winkelgeschwindigkeit {a} (rad/s)" for a in "xyz"]
+    found = read(write(tmp_path, rows(), ("Zeit (s)", *force, *rate)))
+    np.testing.assert_allclose(found.angular_rate, FOOT.angular_rate, atol=1e-6)
+
+
 def test_quoted_cells_may_stand_between_spaces(tmp_path):
     found = read(write(tmp_path, rows(), delimiter=" ", quote='"'))
     np.testing.assert_allclose(found.specific_force, FOOT.specific_force, atol=1e-6)

@@ -119,6 +119,23 @@ def test_an_unusual_rate_is_doubtful_where_only_the_values_tell_the_unit(tmp_pat
     assert doubts(write(tmp_path, rows(step_s=0.01), names)) == []
 
 
+def test_ticks_of_a_tenth_of_a_millisecond_do_not_change_the_rate(tmp_path):
+    names = ("SampleTimeFine", *NAMES[1:])
+    due = 5.0 + np.delete(np.arange(len(FOOT) + 3) / 60.0, [100, 101, 102])
+    cells = rows(rate=np.pi / 180.0)
+    for row, time in zip(cells, due, strict=True):
+        row[0] = str(round(time * 1e4))
+    found = read(write(tmp_path, cells, names))
+    assert found.rate_hz == pytest.approx(60.0, rel=1e-4)
+    np.testing.assert_allclose(found.stamp_ns * 1e-9, due, atol=1e-4)  # with its gap
+    late = due + 0.002 * np.random.default_rng(3).random(len(due))
+    for row, time in zip(cells, late, strict=True):
+        row[0] = str(round(time * 1e4))
+    np.testing.assert_allclose(
+        read(write(tmp_path, cells, names)).stamp_ns * 1e-9, late, atol=6e-5
+    )
+
+
 def test_rows_in_disorder_are_refused(tmp_path):
     cells = [rows()[k] for k in np.random.default_rng(0).permutation(len(FOOT))]
     with pytest.raises(RecordingError, match=r"'time \(s\)' goes back in \d+ of 239.*sort the"):

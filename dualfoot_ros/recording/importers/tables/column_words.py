@@ -14,9 +14,11 @@ from .table_layout import AXES
 from .unit_words import RAW, SIGNS, foreign_unit, unit_of
 
 QUANTITIES = {
-    "force": "acc accel accelerometer acceleration accelerometers acce accelero accelerations sf",
-    "rate": "gyr gyro gyroscope gyros omega angvel avel gyrometer rotationrate",
-    "field": "mag magnetometer magnetic magn magfield magneto compass",
+    "force": "acc accel accelerometer acceleration accelerometers acce accelero accelerations sf "
+    "beschleunigung aceleracion",
+    "rate": "gyr gyro gyroscope gyros omega angvel avel gyrometer rotationrate "
+    "winkelgeschwindigkeit drehrate gyroskop",
+    "field": "mag magnetometer magnetic magn magfield magneto compass magnetfeld",
     "push": "dv velinc deltav deltavelocity",
     "turn": "dq oriinc deltaq deltaquaternion",
 }
@@ -35,7 +37,9 @@ PHRASES = {
     ("ori", "inc"): "turn",
     ("delta", "q"): "turn",
 }
-PERHAPS_FREE = frozenset({"linear", "lin"})  # ROS calls the specific force so, phones do not
+PERHAPS_FREE = frozenset(
+    {"linear", "lin", "lineare", "ohne"}
+)  # ROS calls the specific force so, phones do not
 OTHER = (
     *("quat", "quaternion", "quaternions", "euler", "roll", "pitch", "yaw", "orientation", "mat"),
     *("temp", "temperature", "gravity", "grav", "std", "var", "cov", "covariance", "bias", "jerk"),
@@ -44,6 +48,7 @@ OTHER = (
 )
 TIMES = (
     *("sampletimefine", "time", "timestamp", "timestamps", "t", "stamp", "timesec", "epoch"),
+    *("zeit", "zeitstempel", "tiempo", "temps", "tempo"),
     *("epoc", "elapsed", "seconds", "secs", "millis", "micros", "datetime", "ts", "unix", "clock"),
 )
 COUNTERS = (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -22,10 +22,8 @@ from .stamp_axis import Stamps, TimeSource, stamps_of
 from .stream_join import Stream, are_apart, join
 from .table_file import TableFile, rate_in
 from .table_layout import Layout
-from .unit_choice import WORDS, Told, force_unit, rate_unit, told_unit
-from .unit_words import ARBITRARY, FIELD_UNITS
+from .unit_choice import Told, field_in_tesla, force_unit, rate_unit, told_unit
 
-EARTH_T = (1e-5, 2e-4)  # bounds of a field of the earth, with a margin for iron nearby
 LEAST_SAMPLES = 2
 
 
@@ -95,7 +93,8 @@ def read_sensor_columns(
     if apart:
         return _of_two_streams(table, columns, request, rows)
     keep = _kept(cells.empty[:, :second], rows) & table.timed(columns.places.get("time"))
-    dropped = _dropped(table, keep, rows, request.foot)
+    _check_filled(table, [*parts[0], *parts[1]], keep)
+    dropped = _dropped(keep, rows, request.foot)
     stamps = stamps_of(time_source(table, columns, request.foot, keep))
     kept = values[keep]
     blocks = (kept[:, :first], kept[:, first:second], kept[:, second:] if parts[2] else None)
@@ -132,13 +131,23 @@ def _kept(empty: BoolArray, rows: BoolArray | None) -> BoolArray:
     return whole if rows is None else whole & rows
 
 
-def _dropped(
-    table: TableFile, keep: BoolArray, rows: BoolArray | None, foot: str
-) -> list[Assumption]:
+def _check_filled(table: TableFile, places: Sequence[int], keep: BoolArray) -> None:
+    """Refuse a table with fewer than LEAST_SAMPLES rows to ``keep``; name the emptiest column."""
+    if int(keep.sum()) >= LEAST_SAMPLES:
+        return
+    gaps = table.numbers(places).empty.sum(axis=0)
+    emptiest = int(np.argmax(gaps))
+    name = (table.dialect.names[places[emptiest]] if table.dialect.names else "") or "without name"
+    raise RecordingError(
+        f"'{table.path}' holds {int(keep.sum())} samples of which no cell is empty; column "
+        f"'{name}' is empty in {gaps[emptiest]} of {len(keep)} rows: export it again, or name "
+        "other columns with --columns"
+    )
+
+
+def _dropped(keep: BoolArray, rows: BoolArray | None, foot: str) -> list[Assumption]:
     all_rows = len(keep) if rows is None else int(rows.sum())
     count = all_rows - int(keep.sum())
-    if int(keep.sum()) < LEAST_SAMPLES:
-        raise RecordingError(f"'{table.path}' holds no sample of which no cell is empty")
     if not count:
         return []
     text = f"{count} of {all_rows} left out, with empty cells"
@@ -226,20 +235,21 @@ def in_si(
 ) -> Reading:
     """Return samples in SI; ``told`` are the units of force and rate as they are told."""
     evidence = unit_evidence(samples.stamps.stamp_ns, samples.force, samples.rate)
-    force = force_unit(table.path, request.foot, told[0], evidence)
-    rate = rate_unit(table.path, request.foot, told[1], evidence)
-    units = {"force": force.value.split(" (")[0], "rate": rate.value.split(" (")[0]}
-    fields, about = _field(table, columns, request, samples.field)
+    force, force_note = force_unit(table.path, request.foot, told[0], evidence)
+    rate, rate_note = rate_unit(table.path, request.foot, told[1], evidence)
+    units = {"force": force, "rate": rate}
+    scale = request.field_scale
+    fields, about = field_in_tesla(table, columns, samples.field, request.foot, scale)
     series = ImuSeries(
         samples.stamps.stamp_ns,
-        samples.force * FORCE_UNITS[units["force"]],
-        samples.rate * RATE_UNITS[units["rate"]],
+        samples.force * FORCE_UNITS[force],
+        samples.rate * RATE_UNITS[rate],
         fields,
         table.layout.increments,
     )
     wraps = table.layout.wrap_bits > 0
     stamps = samples.stamps
-    found = (*table.form(request.foot), stamps.assumption, *assumed, force, rate, *about)
+    found = (*table.form(request.foot), stamps.assumption, *assumed, force_note, rate_note, *about)
     layout = _found_layout(table, columns, stamps, units)
     return Reading(series, found, layout, "", wraps, table.facts)
 
@@ -266,28 +276,6 @@ def _found_layout(
     )
 
 
-def _field(
-    table: TableFile, columns: Columns, request: Request, values: FloatArray | None
-) -> tuple[FloatArray | None, list[Assumption]]:
-    """Return the magnetic field in T, where its unit is known and it is one of the earth."""
-    if values is None:
-        return None, []
-    foot, subject = request.foot, WORDS["field"]
-    if request.field_scale:
-        text = f"{request.field_scale:g} T for 1"
-        return values * request.field_scale, [Assumption(foot, subject, text, Origin.OPTION)]
-    told = told_unit(table.path, "field", columns, table.given, table.known)
-    if told.unit is None or told.unit == ARBITRARY:
-        text = "left out: its unit is not known (--field-scale gives it)"
-        return None, [Assumption(foot, subject, text, told.origin)]
-    field_t = values * FIELD_UNITS[told.unit]
-    size = float(np.nanmedian(np.linalg.norm(field_t, axis=1))) if len(field_t) else 0.0
-    if not EARTH_T[0] < size < EARTH_T[1]:
-        text = f"left out: in {told.unit} it would be {size:.3g} T, no field of the earth"
-        return None, [Assumption(foot, subject, text, told.origin, doubtful=True)]
-    return field_t, [Assumption(foot, subject, f"{told.unit} ({size:.2g} T)", told.origin)]
-
-
 def read_stream(
     table: TableFile, columns: Columns, quantity: str, foot: str, rows: BoolArray | None = None
 ) -> tuple[Stream, Stamps]:
@@ -297,7 +285,6 @@ def read_stream(
         raise RecordingError(missing(table.path, table.dialect, columns, table.facts))
     cells = table.numbers(places)
     keep = _kept(cells.empty, rows) & table.timed(columns.places.get("time"))
-    if int(keep.sum()) < LEAST_SAMPLES:
-        raise RecordingError(f"'{table.path}' holds no sample of the {WORDS[quantity]}")
+    _check_filled(table, places, keep)
     stamps = stamps_of(time_source(table, columns, foot, keep))
     return Stream(stamps.stamp_ns, cells.numbers[keep]), stamps

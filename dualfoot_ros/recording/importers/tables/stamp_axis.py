@@ -19,6 +19,7 @@ from .unit_words import SAMPLES, TIME_UNITS
 LEAST_RATE, MOST_RATE = 8.0, 6000.0
 LIKELY_RATE = (10.0, 2000.0)  # Hz; units are a factor of 1000 apart, so one of them fits
 SAME_RATE = 1.1  # factor between the rate of the stamps and that of the header
+TICKS, TICK_NS = "100us", 100_000
 UNSORTED = 0.2  # of the steps; with more that go back the rows are in disorder
 USUAL_RATE = (45.0, 800.0)  # Hz; beyond it, a unit that only the values tell deserves a look
 REPEATED = 0.2  # of the stamps; with more equal ones the time was rounded
@@ -93,7 +94,26 @@ def stamps_of(source: TimeSource) -> Stamps:
     value = f"{source.name}, in {unit}"
     if doubtful:
         value += f", which gives {rate_hz:.4g} Hz; if that is wrong, give --time-unit"
+    stamps = _without_ticks(stamps, TICK_NS) if unit == TICKS else stamps
     return Stamps(stamps, Assumption(source.foot, "time", value, origin, doubtful), unit)
+
+
+def _without_ticks(stamps: IntArray, tick_ns: int) -> IntArray:
+    """Return even stamps where rounding to ticks is all that makes them uneven, else the same.
+
+    At 60 Hz, ticks of 0.1 ms have steps of 166 and 167, and their median is 0.2 % off.
+    """
+    steps = np.diff(stamps)
+    counts = np.rint(steps / np.median(steps))
+    if not (counts >= 1.0).all():
+        return stamps
+    index = np.concatenate(([0.0], np.cumsum(counts)))
+    even = index * ((stamps[-1] - stamps[0]) / index[-1])
+    rest = stamps - stamps[0] - even
+    if np.ptp(rest) > 2 * tick_ns:
+        return stamps
+    middle = max(0, round(float(rest.max() + rest.min()) / 2.0))  # no stamp gets below zero
+    return np.asarray(stamps[0] + np.int64(middle) + np.rint(even).astype(np.int64))
 
 
 def _check_order(source: TimeSource, values: FloatArray) -> None:

@@ -9,13 +9,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from ....core import FORCE_UNITS, RATE_UNITS, STANDARD_GRAVITY, RecordingError
+import numpy as np
+
+from ....core import FORCE_UNITS, RATE_UNITS, STANDARD_GRAVITY, FloatArray, RecordingError
 from ...unit_evidence import UnitEvidence
 from .assumptions import Assumption, Origin
 from .column_choice import Columns
+from .table_file import TableFile
 from .table_layout import VECTORS, Layout
-from .unit_words import RAW, SIZES
+from .unit_words import ARBITRARY, FIELD_UNITS, RAW, SIZES
 
+EARTH_T = (1e-5, 2e-4)  # bounds of a field of the earth, with a margin for iron nearby
 NO_GRAVITY = 0.35  # of gravity: a force that stays below has gravity taken out
 NEAR_GRAVITY = 0.015  # of it; cm/s^2, which is 2 % from mg, is beyond, and so are few sensors
 WORDS = {"force": "specific force", "rate": "angular rate", "field": "magnetic field"}
@@ -66,8 +70,10 @@ def told_unit(
     return Told(layout, Origin.LAYOUT)
 
 
-def force_unit(path: Path, foot: str, told: Told, evidence: UnitEvidence) -> Assumption:
-    """Return the unit of the specific force, checked against gravity.
+def force_unit(
+    path: Path, foot: str, told: Told, evidence: UnitEvidence
+) -> tuple[str, Assumption]:
+    """Return the unit of the specific force, checked against gravity, and what was assumed.
 
     Raises
     ------
@@ -84,7 +90,7 @@ def force_unit(path: Path, foot: str, told: Told, evidence: UnitEvidence) -> Ass
             )
         off = abs(evidence.gravity * FORCE_UNITS[likely] / STANDARD_GRAVITY - 1.0)
         value, doubtful = f"{likely} ({reading})", evidence.quiet and off > NEAR_GRAVITY
-        return Assumption(foot, WORDS["force"], value, Origin.MOTION, doubtful)
+        return likely, Assumption(foot, WORDS["force"], value, Origin.MOTION, doubtful)
     if told.origin is not Origin.OPTION and _lacks_gravity(evidence, FORCE_UNITS[told.unit]):
         raise RecordingError(
             f"'{path}': the specific force in {told.unit} (by {told.origin}) {reading[3:]}, so "
@@ -106,7 +112,7 @@ def force_unit(path: Path, foot: str, told: Told, evidence: UnitEvidence) -> Ass
             f"calibrated values, or give --force-unit {told.unit} to insist"
         )
     value = f"{told.unit} ({reading})"
-    return Assumption(foot, WORDS["force"], value, told.origin, doubtful)
+    return told.unit, Assumption(foot, WORDS["force"], value, told.origin, doubtful)
 
 
 def _lacks_gravity(evidence: UnitEvidence, size: float) -> bool:
@@ -121,8 +127,8 @@ def _gravity_hint(evidence: UnitEvidence) -> str:
     return f"{gone if low else ''}give --force-unit m/s^2, g or mg"
 
 
-def rate_unit(path: Path, foot: str, told: Told, evidence: UnitEvidence) -> Assumption:
-    """Return the unit of the angular rate, checked against the motion.
+def rate_unit(path: Path, foot: str, told: Told, evidence: UnitEvidence) -> tuple[str, Assumption]:
+    """Return the unit of the angular rate, checked against the motion, and what was assumed.
 
     Raises
     ------
@@ -138,7 +144,7 @@ def rate_unit(path: Path, foot: str, told: Told, evidence: UnitEvidence) -> Assu
                 f"'{path}': no unit of the angular rate is told, and the motion does not decide "
                 f"({reading}); give --rate-unit deg/s or rad/s"
             )
-        return Assumption(foot, WORDS["rate"], f"{likely} ({reading})", Origin.MOTION)
+        return likely, Assumption(foot, WORDS["rate"], f"{likely} ({reading})", Origin.MOTION)
     fits = evidence.rate_fits(RATE_UNITS[told.unit])
     if likely is not None and not fits and told.origin is not Origin.OPTION:
         raise RecordingError(
@@ -146,4 +152,30 @@ def rate_unit(path: Path, foot: str, told: Told, evidence: UnitEvidence) -> Assu
             f"{reading}, and rates {motion} are those in {likely}: the gyro does not fit the "
             f"accelerometer; give --rate-unit {likely}, or --rate-unit {told.unit} to insist"
         )
-    return Assumption(foot, WORDS["rate"], f"{told.unit} ({reading})", told.origin, not fits)
+    value = f"{told.unit} ({reading})"
+    return told.unit, Assumption(foot, WORDS["rate"], value, told.origin, not fits)
+
+
+def field_in_tesla(
+    table: TableFile, columns: Columns, values: FloatArray | None, foot: str, scale: float
+) -> tuple[FloatArray | None, list[Assumption]]:
+    """Return the magnetic field in T, where its unit is known and it is one of the earth.
+
+    ``scale`` is what 1 of the ``values`` (N, 3) is in T, 0 for what the table tells.
+    """
+    if values is None:
+        return None, []
+    subject = WORDS["field"]
+    if scale:
+        text = f"{scale:g} T for 1"
+        return values * scale, [Assumption(foot, subject, text, Origin.OPTION)]
+    told = told_unit(table.path, "field", columns, table.given, table.known)
+    if told.unit is None or told.unit == ARBITRARY:
+        text = "left out: its unit is not known (--field-scale gives it)"
+        return None, [Assumption(foot, subject, text, told.origin)]
+    field_t = values * FIELD_UNITS[told.unit]
+    size = float(np.nanmedian(np.linalg.norm(field_t, axis=1))) if len(field_t) else 0.0
+    if not EARTH_T[0] < size < EARTH_T[1]:
+        text = f"left out: in {told.unit} it would be {size:.3g} T, no field of the earth"
+        return None, [Assumption(foot, subject, text, told.origin, doubtful=True)]
+    return field_t, [Assumption(foot, subject, f"{told.unit} ({size:.2g} T)", told.origin)]

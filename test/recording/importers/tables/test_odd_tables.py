@@ -58,9 +58,22 @@ def test_empty_cells_may_be_quoted_words(tmp_path, gap, quote, delimiter):
     assert len(good) == len(FOOT) - 1
 
 
+def test_names_may_be_those_of_a_german_export(tmp_path):
+    force = [f"Beschleunigung {a} (m/s^2)" for a in "xyz"]
+    rate = [f"Winkelgeschwindigkeit {a} (rad/s)" for a in "xyz"]
+    found = read(write(tmp_path, rows(), ("Zeit (s)", *force, *rate)))
+    np.testing.assert_allclose(found.angular_rate, FOOT.angular_rate, atol=1e-6)
+
+
 def test_quoted_cells_may_stand_between_spaces(tmp_path):
     found = read(write(tmp_path, rows(), delimiter=" ", quote='"'))
     np.testing.assert_allclose(found.specific_force, FOOT.specific_force, atol=1e-6)
+
+
+def test_a_column_without_values_is_named(tmp_path):
+    cells = [[*row[:2], "", *row[3:]] for row in rows()]
+    with pytest.raises(RecordingError, match=r"'ay' is empty in 240 of 240 rows.*--columns"):
+        read(write(tmp_path, cells))
 
 
 @pytest.mark.parametrize("word", ["#DIV/0!", "1.2.3", "12abc", "1_000"])
@@ -104,6 +117,23 @@ def test_an_unusual_rate_is_doubtful_where_only_the_values_tell_the_unit(tmp_pat
         write(tmp_path, rows(step_s=step), names)
     )[0].replace("1e+03", "1000")
     assert doubts(write(tmp_path, rows(step_s=0.01), names)) == []
+
+
+def test_ticks_of_a_tenth_of_a_millisecond_do_not_change_the_rate(tmp_path):
+    names = ("SampleTimeFine", *NAMES[1:])
+    due = 5.0 + np.delete(np.arange(len(FOOT) + 3) / 60.0, [100, 101, 102])
+    cells = rows(rate=np.pi / 180.0)
+    for row, time in zip(cells, due, strict=True):
+        row[0] = str(round(time * 1e4))
+    found = read(write(tmp_path, cells, names))
+    assert found.rate_hz == pytest.approx(60.0, rel=1e-4)
+    np.testing.assert_allclose(found.stamp_ns * 1e-9, due, atol=1e-4)  # with its gap
+    late = due + 0.002 * np.random.default_rng(3).random(len(due))
+    for row, time in zip(cells, late, strict=True):
+        row[0] = str(round(time * 1e4))
+    np.testing.assert_allclose(
+        read(write(tmp_path, cells, names)).stamp_ns * 1e-9, late, atol=6e-5
+    )
 
 
 def test_rows_in_disorder_are_refused(tmp_path):

@@ -47,3 +47,13 @@ def test_ctrl_c_ends_the_page_with_code_0_and_without_a_traceback(session):
     ended = running.end()
     assert ended.code == 0
     assert "Traceback" not in ended.out + ended.error
+
+
+def test_ctrl_c_while_ros_is_being_imported_is_no_traceback_either(session):
+    pytest.importorskip("rclpy")
+    running = session("-m", "dualfoot_ros", "live", "--port", "0")
+    assert running.until(lambda each: each.maps(each.pid, "_rclpy_pybind11"), "the import")
+    running.send(signal.SIGINT)
+    ended = running.end()
+    assert ended.code == 0
+    assert "Traceback" not in ended.out + ended.error

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ...core import YawTurn
@@ -36,29 +36,29 @@ class LiveState:
         with self._lock:
             self._now |= values
 
-    def add(self, trails: Iterable[str], place: Place) -> None:
-        """Add a place to each of the trails named."""
+    def add(self, trails: Iterable[str], place: Place, published: float | None = None) -> None:
+        """Add a place to each of the trails named; see :meth:`Trail.add`."""
         with self._lock:
             for name in trails:
-                self.trails[name].add(place)
+                self.trails[name].add(place, published)
 
-    def seed(self, trails: Iterable[str], places: Iterable[Place]) -> None:
+    def seed(self, trails: Iterable[str], places: Sequence[Place], published: float) -> None:
         """Put places that were passed before the page began in front of the trails named."""
-        passed = list(places)
         with self._lock:
             for name in trails:
-                self.trails[name].seed(passed)
+                self.trails[name].seed(places, published)
 
-    def turn(self, name: str, turn: YawTurn) -> None:
-        """Turn a trail."""
+    def turn(self, trails: Iterable[str], announced: float, turn: YawTurn | None) -> None:
+        """Turn the trails named; see :meth:`Trail.turn`."""
         with self._lock:
-            self.trails[name].turn(turn)
+            for name in trails:
+                self.trails[name].turn(announced, turn)
 
-    def clear(self, *trails: str) -> None:
-        """Forget the trails named; without a name, the whole walk."""
+    def clear(self) -> None:
+        """Forget the walk."""
         with self._lock:
-            for name in trails or self.trails:
-                self.trails[name].clear()
+            for trail in self.trails.values():
+                trail.clear()
 
     def message(self, cursor: Cursor) -> tuple[dict[str, Any], Cursor]:
         """Return what a reader who has ``cursor`` needs, and its cursor after it."""

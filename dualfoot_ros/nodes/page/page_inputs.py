@@ -49,7 +49,7 @@ class PageInputs:
         self._start_ns: int | None = None
         self._newest_ns = 0
         self._seen_ns = dict.fromkeys((PERSON, *FEET), 0)
-        self._seeded_ns: dict[str, int] = {}
+        self._seeded: set[str] = set()
         self._batteries: dict[str, float] = {}
         self._recent: deque[Place] = deque(maxlen=RECENT)
         self._odometry = WatchedInput(
@@ -113,10 +113,13 @@ class PageInputs:
         return self._at(stamp_ns, position), quaternion_yaw(quaternion)
 
     def _at(self, stamp_ns: int, position: FloatArray) -> Place:
-        """Return a place with the time since the page's first one, s."""
+        return Place(self._seconds(stamp_ns), *position.tolist())
+
+    def _seconds(self, stamp_ns: int) -> float:
+        """Return the time since the first stamp of the page, s."""
         if self._start_ns is None:
             self._start_ns = stamp_ns
-        return Place(1e-9 * (stamp_ns - self._start_ns), *position.tolist())
+        return 1e-9 * (stamp_ns - self._start_ns)
 
     def clear(self) -> None:
         """Forget the walk: another one begins."""
@@ -124,20 +127,21 @@ class PageInputs:
         self._state.show(person=None, step=None, **dict.fromkeys(FEET))
         self._start_ns, self._newest_ns = None, 0
         self._seen_ns = dict.fromkeys(self._seen_ns, 0)
-        self._seeded_ns.clear()
+        self._seeded.clear()
         self._recent.clear()
 
     # ---- what was before, and what changes it
     def _take_path(self, name: str, message: Path) -> None:
         """Take what was walked before the page began; after that the page follows by itself."""
-        if name in self._seeded_ns or not message.poses:
+        if name in self._seeded or not message.poses:
             return
-        self._seeded_ns[name] = to_ns(message.header.stamp)
+        self._seeded.add(name)
         places = [
             self._at(to_ns(pose.header.stamp), pose_of(pose.pose)[0])
             for pose in message.poses[:-1]
         ]
-        self._state.seed((PERSON, HEIGHT) if name == PERSON else (name,), places)
+        published = self._seconds(to_ns(message.header.stamp))
+        self._state.seed((PERSON, HEIGHT) if name == PERSON else (name,), places, published)
 
     def _take_events(self, message: DiagnosticArray) -> None:
         for event in event_messages.from_message(message):
@@ -148,24 +152,20 @@ class PageInputs:
 
     def _turn(self, event: Event) -> None:
         """Turn the trails; those of the person from before the heading was known are dropped."""
-        turn = event.turn
-        if event.detected_ns > self._seeded_ns.get(event.foot, 0):
-            self._state.turn(event.foot, turn)
-        if event.detected_ns <= self._seeded_ns.get(PERSON, 0):
-            return
-        if not turn.joint:
-            self._state.clear(PERSON, HEIGHT)
+        announced = self._seconds(event.detected_ns)
+        self._state.turn((event.foot,), announced, event.turn)
+        if not event.turn.joint:
+            self._state.turn((PERSON, HEIGHT), announced, None)
             self._recent.clear()
         elif event.foot == FEET[0]:
-            self._state.turn(PERSON, turn)
-            self._state.turn(HEIGHT, turn)
+            self._state.turn((PERSON, HEIGHT), announced, event.turn)
 
     def _take_step(self, message: DiagnosticArray) -> None:
         for status in message.status:
             values = {pair.key: json.loads(pair.value) for pair in status.values}
-            stamp_ns, foot = to_ns(message.header.stamp), status.hardware_id
-            if foot in FEET and stamp_ns > self._seeded_ns.get(foot, 0):
-                self._state.add((foot,), self._at(stamp_ns, np.array(values["place"])))
+            place = self._at(to_ns(message.header.stamp), np.array(values["place"]))
+            foot, published = status.hardware_id, self._seconds(values["detected_ns"])
+            self._state.add((foot,), place, published)
             shown = {key: values[key] for key in ("length", "width", "duration", "height")}
             self._state.show(step={"foot": foot, **shown})
 

@@ -10,15 +10,29 @@ from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry, Path
 from sensor_msgs.msg import BatteryState
 
-from dualfoot_ros.core import Event, EventKind, Step, Trust, YawTurn, yaw_quaternion
+from dualfoot_ros.core import (
+    DualFootTracker,
+    Event,
+    EventKind,
+    ImuPair,
+    Step,
+    Trust,
+    YawTurn,
+    yaw_quaternion,
+)
+from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.nodes.live_page import LivePageNode
 from dualfoot_ros.nodes.page.live_state import HEIGHT, PERSON, LiveState
 from dualfoot_ros.nodes.page.page_inputs import PageInputs
 from dualfoot_ros.nodes.results import event_messages
+from dualfoot_ros.nodes.results.outputs import Outputs
 from dualfoot_ros.nodes.results.person_outputs import trust_message
 from dualfoot_ros.nodes.results.step_outputs import step_message
 from dualfoot_ros.nodes.ros import qos
 from dualfoot_ros.nodes.ros.messages import new_odometry, pose_stamped, set_pose, set_time
+from dualfoot_ros.recording import read_bag
+from dualfoot_ros.settings import FrameConfig, PathConfig, PersonConfig
+from dualfoot_ros.timing import align
 
 from .test_node_reports import counts, report
 
@@ -111,14 +125,14 @@ def test_a_heading_turns_the_walk_once_and_not_what_was_published_turned(inputs,
     assert places(state, PERSON)[0][1] == -3.0
     walk(inputs, 2.0)
     for foot in ("left", "right"):
-        inputs._take_events(heading(foot, 101.5, joint=True))
+        inputs._take_events(heading(foot, 102.5, joint=True))
     assert places(state, PERSON)[0][1:] == pytest.approx([0.0, -3.0], abs=1e-9)
     assert places(state, PERSON)[-1][1:] == pytest.approx([0.0, 2.0], abs=0.25)
 
 
 def test_the_walk_before_the_first_heading_is_dropped(inputs, state):
     walk(inputs, 2.0)
-    inputs._take_events(heading("left", 101.5, joint=False))
+    inputs._take_events(heading("left", 102.5, joint=False))
     assert places(state, PERSON) == []
 
 
@@ -198,6 +212,35 @@ def test_the_node_shows_what_is_published_in_its_namespace(bench):
         seen = json.loads(answer.read())["now"]
     assert seen["person"]["y"] == 2.0 and seen["left"]["x"] == 1.5
     assert seen["feet"]["left"]["state"] == "tracking"
+
+
+def test_the_page_has_the_walk_that_fusion_has_after_its_headings(bench, state, walk_bag):
+    """Both are turned by the same events, fusion's paths and the page's own trails."""
+    fusion = bench.add(lambda **options: bench_node("fusion", **options))
+    frames, path, person = FrameConfig(), PathConfig(), PersonConfig()
+    outputs = Outputs(fusion, frames, path, person, 1e-3, tf=False)
+    inputs = PageInputs(bench.plain("page"), state)
+    inputs._seeded = {PERSON, "left", "right"}  # nothing was walked before
+    bench.until(lambda: fusion.count_subscribers("odometry"), "discovery")
+    recording = read_bag(walk_bag)
+    left, right = align(recording.left, recording.right)
+    tracker = DualFootTracker(engine="compiled")
+    for number, row in enumerate(stack_pairs(left, right)[:800]):
+        update = tracker.add(ImuPair(int(left.stamp_ns[number]), row))
+        outputs.publish(update)
+        if update.left is not None and number % 5 == 0:  # as fast as the page takes them
+            bench.until(lambda s=update.stamp_ns: inputs._newest_ns >= s, "odometry")
+    shown = np.array(places(state, PERSON))[:, 1:]
+    known = outputs.person._path.message(outputs.person._person.add(update)).poses
+    for pose in known:
+        place = pose.pose.position
+        assert np.hypot(*(shown - [place.x, place.y]).T).min() < 0.25
+    for foot in ("left", "right"):
+        prints = np.array(places(state, foot))[:, 1:]
+        path = outputs._paths[foot].message().poses
+        stood = np.array([[p.pose.position.x, p.pose.position.y] for p in path])
+        apart = np.linalg.norm(prints[:, None] - stood[None], axis=2).min(axis=1)
+        assert len(prints) > 3 and apart.max() < 0.05
 
 
 def bench_node(name, **options):

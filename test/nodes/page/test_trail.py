@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from dualfoot_ros.core import YawTurn
 from dualfoot_ros.nodes.page.trail import Place, Trail, seconds
 
+LEFT = YawTurn(math.pi / 2, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+
 
 def straight(metres, step=0.1):
     return [Place(k * step, k * step, 0.0, 0.0) for k in range(round(metres / step) + 1)]
@@ -53,7 +55,7 @@ def test_a_turn_moves_every_place_and_is_another_edition():
     for place in straight(0.3):
         trail.add(place)
     before = trail.edition
-    trail.turn(YawTurn(math.pi / 2, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
+    trail.turn(9.0, LEFT)
     assert trail.edition != before
     turned = np.array([p[1:] for p in trail.places])
     assert turned == pytest.approx(np.array([[0.0, 0.1 * k, 1.0] for k in range(4)]))
@@ -74,5 +76,40 @@ def test_what_was_walked_before_comes_in_front():
     walk = straight(1.0)
     for place in walk[6:]:
         trail.add(place)
-    trail.seed(walk[:8])
+    trail.seed(walk[:8], 0.8)
     assert trail.places == walk
+
+
+def test_a_turn_is_the_same_in_whatever_order_the_messages_come():
+    walk = straight(1.0)
+    trails = []
+    for when in (0, 5, 8, 11):
+        trail = Trail(100, 0.0)
+        for number, place in enumerate(walk):
+            if number == when:
+                trail.turn(0.45, LEFT)
+            trail.add(place)
+        if when == 11:
+            trail.turn(0.45, LEFT)
+        trails.append(np.array(trail.places))
+    assert all(np.allclose(trails[0], other) for other in trails[1:])
+    assert trails[0][:5, 1] == pytest.approx(np.zeros(5), abs=1e-12)
+    assert trails[0][5:, 2] == pytest.approx(np.zeros(6))
+
+
+def test_without_a_turn_what_was_published_before_is_dropped_and_does_not_count():
+    trail = Trail(100, 0.0)
+    walk = straight(1.0)
+    for place in walk:
+        trail.add(place)
+    trail.turn(0.45, None)
+    trail.add(walk[2])  # its message is late
+    assert trail.places == walk[5:]
+    assert trail.length == pytest.approx(0.5)
+
+
+def test_a_place_that_was_published_after_a_turn_is_turned_already():
+    trail = Trail(100, 0.0)
+    trail.add(Place(1.0, 1.0, 0.0, 0.0), published=3.0)
+    trail.turn(2.0, LEFT)
+    assert trail.places == [Place(1.0, 1.0, 0.0, 0.0)]

@@ -85,6 +85,7 @@ def _inspect_walk(contents: Contents) -> None:
         FindingKind,
         Severity,
         coupled_findings,
+        ride_findings,
         stance_statistics,
         unconstrained_config,
         walk_findings,
@@ -101,6 +102,7 @@ def _inspect_walk(contents: Contents) -> None:
     contents.stances.update(stance_statistics(alone))
     contents.findings.extend(walk_findings(alone))
     contents.findings.extend(coupled_findings(coupled))
+    contents.findings.extend(ride_findings(coupled.events))
 
 
 def _facts(contents: Contents) -> dict[str, Any]:

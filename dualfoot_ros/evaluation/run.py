@@ -22,6 +22,7 @@ from ..inspection import (
     FindingKind,
     check_usable,
     coupled_findings,
+    ride_findings,
     start_findings,
     unconstrained_config,
     walk_findings,
@@ -118,7 +119,7 @@ def run_checked(
         reference=recording.reference,
         options=options.alignment,
     )
-    of_walk = list(start_findings(trajectory.events))
+    of_walk = [*start_findings(trajectory.events), *ride_findings(trajectory.events)]
     if options.check_feet:
         of_walk += _walk_findings(recording, config, trajectory)
     return replace(

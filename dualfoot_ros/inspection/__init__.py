@@ -14,6 +14,7 @@ from .findings import (
     findings_of,
     qualities_of,
     require_usable,
+    ride_findings,
     start_findings,
     walk_findings,
 )
@@ -63,6 +64,7 @@ __all__ = [
     "quality_of",
     "recorded_fields",
     "require_usable",
+    "ride_findings",
     "side_by_side",
     "stance_statistics",
     "start_findings",

@@ -9,6 +9,7 @@ import math
 
 from .covariance import propagate_foot
 from .detector import detect
+from .floor import carry, floor_moves, watch_floor
 from .layout import (
     A_COUNT,
     A_FOOT,
@@ -21,6 +22,9 @@ from .layout import (
     E_POS,
     E_VEL,
     FLAG_STILL,
+    FLOOR_STD,
+    FLOOR_UP_STD,
+    FLOOR_VEL,
     FOOT,
     N_BACK,
     N_EPOCH,
@@ -34,6 +38,7 @@ from .layout import (
     N_STILL,
     N_STRIDE,
     NOTICE_BACK,
+    NOTICE_FLOOR,
     NOTICE_GONE,
     NOTICE_SHIFT,
     NOTICE_STOOD,
@@ -101,6 +106,8 @@ def filter_epoch(w, n, epoch):
         else:
             for k in range(ZUPT_INFO):
                 w[Z_LEFT + foot * ZUPT_INFO + k] = 0.0
+    if floor_moves(w):
+        carry(w, dt)
 
 
 def missing(w, sample):
@@ -196,6 +203,8 @@ def advance(w, n, dts, samples, start, stop, out):
             if collect_stand(w, foot, (flags // FLAG_STILL >> foot) & 1, o):
                 n[N_NOTICE] = n[N_NOTICE] | (NOTICE_STOOD << foot)
         filter_epoch(w, n, epoch)
+        if watch_floor(w, n, dts[k]):
+            n[N_NOTICE] = n[N_NOTICE] | NOTICE_FLOOR
         if squared_distance(w) > w[C_WATCH]:
             n[N_NOTICE] = n[N_NOTICE] | NOTICE_WATCH
         emit(w, n, out, k)
@@ -261,6 +270,8 @@ def emit(w, n, out, k):
                 out[k, o + O_COV_ATT + m] = w[block + ROW * (E_ATT + i) + E_ATT + j]
         for i in range(ZUPT_INFO):
             out[k, o + O_ZUPT + i] = w[Z_LEFT + foot * ZUPT_INFO + i]
+    if floor_moves(w):
+        emit_floor(w, out, k)
     for i in range(3):
         for j in range(3):
             out[k, O_RELATIVE + 3 * i + j] = (
@@ -268,6 +279,16 @@ def emit(w, n, out, k):
                 + w[PRR + ROW * i + j]
                 - (w[PLR + ROW * i + j] + w[PLR + ROW * j + i])
             )
+
+
+def emit_floor(w, out, k):
+    """Add the velocity of the floor to that of both feet in row ``k`` of ``out`` (N, OUT)."""
+    for foot in range(2):
+        o = foot * O_FOOT
+        for i in range(3):
+            std = w[FLOOR_UP_STD] if i == 2 else w[FLOOR_STD]
+            out[k, o + O_VEL + i] += w[FLOOR_VEL + i]
+            out[k, o + O_COV_VEL + 4 * i] += std * std
 
 
 def quaternion(w, r, out, k, o):

@@ -3,6 +3,7 @@
 from .finding import Finding, Key, Severity
 from .finding_kinds import FindingKind
 from .recording_findings import check_usable, findings_of, qualities_of, require_usable
+from .ride_findings import ride_findings
 from .start_findings import start_findings
 from .stream_findings import STUCK_SHARE
 from .unit_findings import GRAVITY_ERROR
@@ -20,6 +21,7 @@ __all__ = [
     "findings_of",
     "qualities_of",
     "require_usable",
+    "ride_findings",
     "start_findings",
     "walk_findings",
 ]

@@ -9,7 +9,7 @@ from rclpy.clock import Clock
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
 from ...core import FEET, DualFootTracker, Event, EventKind, Refusal, Update, refusal_of
-from ...inspection import Finding, FindingKind, Severity, start_findings
+from ...inspection import Finding, FindingKind, Severity, ride_findings, start_findings
 from ...timing import Aligner
 from ..ros.diagnostics import Rates
 from ..ros.status import Described, Status
@@ -48,6 +48,7 @@ class FusionReport:
         self._correction_m = 0.0
         self._phase = "aligning"
         self._start: Finding | None = None
+        self._ride: Finding | None = None
         self._stance = dict.fromkeys(FEET, False)
         self._stamp_ns = 0
         self._last_stance_ns = dict.fromkeys(FEET, 0)
@@ -88,8 +89,11 @@ class FusionReport:
             self._start = next(start_findings([event]), None)
             if self._start is not None:
                 self._logger.warning(self._start.sentence)
+            self._ride = None
         elif event.kind is EventKind.STOOD:
             self._start = None
+        elif event.kind is EventKind.CARRIED:
+            self._ride = next(ride_findings([event]), None)
         if event.kind is EventKind.CONSTRAINT and event.accepted and len(event.innovation):
             self._correction_m = float(np.linalg.norm(event.innovation))
 
@@ -116,6 +120,8 @@ class FusionReport:
             status.values |= {"spacing of the feet (m)": spacing, "spacing std (m)": std}
         if self._start is not None:
             status.note(self._start)
+        if self._ride is not None:
+            status.note(self._ride)
         if tracker.phase == "aligning" and tracker.complaint:
             text = f"aligning: stand still ({tracker.complaint})"
             status.note(Finding(FindingKind.ALIGNING, Severity.WARNING, text))

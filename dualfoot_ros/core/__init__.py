@@ -13,6 +13,7 @@ from .errors import (
     RecordingError,
     SeriesError,
     SimulationError,
+    SnapshotError,
     SourceError,
     TimingError,
 )
@@ -138,6 +139,7 @@ __all__ = [
     "SimulationError",
     "SmoothedPerson",
     "Smoother",
+    "SnapshotError",
     "SourceError",
     "StanceEpochs",
     "StancePassing",

@@ -9,6 +9,7 @@ position it had then.  For level ground only: on stairs it is wrong, and off by 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from ..config_groups import AidsConfig
 from ..constraints.method import Gait, Method, Request, StancePhase
@@ -37,12 +38,7 @@ class FlatFloor(Method):
 
     def on_stance_start(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
         """Return the height of the floor, now."""
-
-        def apply(estimate: JointEstimate) -> Outcome:
-            outcome = self._height(estimate, stance.foot)
-            self._stood[stance.foot] = estimate.position(stance.foot)
-            return outcome
-
+        apply = partial(self._stand, foot=stance.foot)
         return (Request(gait.now, False, apply, EventKind.AID),)
 
     def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
@@ -50,12 +46,13 @@ class FlatFloor(Method):
         stood, self._stood[stance.foot] = self._stood[stance.foot], None
         if stood is None or not gait.remembers(stance.last):
             return ()
-        place = stood
-
-        def apply(estimate: JointEstimate) -> Outcome:
-            return self._place(estimate, stance.foot, place)
-
+        apply = partial(self._place, foot=stance.foot, place=stood)
         return (Request(stance.last, True, apply, EventKind.AID),)
+
+    def _stand(self, estimate: JointEstimate, foot: int) -> Outcome:
+        outcome = self._height(estimate, foot)
+        self._stood[foot] = estimate.position(foot)
+        return outcome
 
     def _height(self, estimate: JointEstimate, foot: int) -> Outcome:
         innovation = estimate.position(foot)[2:] - self._floor_m

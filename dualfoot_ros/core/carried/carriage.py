@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -98,12 +99,13 @@ class Carriage:
         ride = self._walkway(before if over else velocity, over=over)
         by = (np.zeros(3) if over else np.array(ride.velocity)) - before
         if self._gait.remembers(step.epoch - 1):
-            change = Request(step.epoch - 1, True, self._ground.changer(by, ride))
-            self._roll_back.apply([change])
+            apply = partial(self._ground.change, by=by, ride=ride)
+            self._roll_back.apply([Request(step.epoch - 1, True, apply)])
         else:
             # both feet have been at rest on the new floor since, so that their velocities are
             # against it already
-            self._ground.change(np.zeros(3), ride)
+            apply = partial(self._ground.change, by=np.zeros(3), ride=ride)
+            self._roll_back.apply([Request(self._space.epoch, False, apply)])
             self._fix()
         self.kind = None if over else FloorKind.WALKWAY
         self._began_ns = step.stamp_ns

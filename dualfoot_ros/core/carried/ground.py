@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from ..joint_estimate import JointEstimate, Outcome
@@ -62,7 +60,7 @@ class Ground:
             for block in (lay.PLL, lay.PRR, lay.PLR):
                 w[block + lay.DIAGONAL * (state + axis)] += each**2
 
-    def change(self, by: FloatArray, ride: Ride) -> Outcome:
+    def change(self, _: JointEstimate, by: FloatArray, ride: Ride) -> Outcome:
         """Go over to a floor that moves by ``by`` (3,) m/s faster; nothing in the world changes.
 
         The velocities of the feet are against the floor, so they change by the opposite.
@@ -77,14 +75,6 @@ class Ground:
         else:
             self.move(np.array(ride.velocity), ride.std, ride.up_std, 0.0)
         return Outcome(by, np.eye(3) * ride.std**2, 0.0, True, ride)
-
-    def changer(self, by: FloatArray, ride: Ride) -> Callable[[JointEstimate], Outcome]:
-        """Return `change` as what a roll-back applies."""
-
-        def apply(estimate: JointEstimate) -> Outcome:
-            return self.change(by, ride)
-
-        return apply
 
     def ride(self, kind: FloorKind, *, over: bool = False) -> Ride:
         """Return what is known of the floor."""

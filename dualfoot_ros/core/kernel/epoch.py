@@ -73,7 +73,9 @@ from .layout import (
     ZUPT_INFO,
 )
 from .measurement_update import zupt
-from .strapdown import mechanize
+from .strapdown import mechanize, orthonormalise
+
+ORTHONORMAL_EVERY = 32768  # epochs, over which rounding turns an attitude by 1e-13
 
 
 def filter_epoch(w, n, epoch):
@@ -108,6 +110,9 @@ def filter_epoch(w, n, epoch):
                 w[Z_LEFT + foot * ZUPT_INFO + k] = 0.0
     if floor_moves(w):
         carry(w, dt)
+    if epoch % ORTHONORMAL_EVERY == ORTHONORMAL_EVERY - 1:
+        orthonormalise(w, 0)
+        orthonormalise(w, 1)
 
 
 def missing(w, sample):

@@ -352,6 +352,7 @@ class Session:
         done = self._roll_back.apply(requests)
         for _, outcome in done:
             method.note(outcome)
+            self._carriage.constrained(outcome)
         return [self._event(foot, *pair) for pair in done]
 
     def _event(self, foot: str, request: Request, outcome: Outcome) -> Event:

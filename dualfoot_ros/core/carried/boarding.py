@@ -4,7 +4,8 @@ Where the feet do not know of the floor, its zero-velocity update finds the whol
 innovation: 0.5 m/s, in place of 0.05 m/s (0.17 m/s in one landing of a hundred).  One landing may
 be a false stance; both feet, one after the other, with the same velocity are a moving floor, and
 so is a foot that lands twice, the stance of the other one having been missed, and has that
-velocity the first time only.
+velocity the first time only.  Where landings before them had such velocities as well, something
+else is wrong with the track, as a constraint to a distance that the feet do not have.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from ..samples.series import FloatArray
 LANDING_STD = 0.06  # m/s, velocity of a sensor at the start of a stance
 ALIKE = 0.5  # share of their mean by which two landings may differ
 STEADY = 0.5  # share of its velocity that a landing may gain until its stance is confirmed
+FASTEST = 1.0  # m/s, of a floor that one steps on
 LONGEST_S = 3.0  # from the landing of one foot to that of the other
 
 
@@ -57,16 +59,27 @@ class Boarding:
         """Take landings whose NIS (3 degrees of freedom) is above ``gate``."""
         self._space, self._gait, self.gate = space, gait, math.inf
         self._before: Landing | None = None
+        self._fast = [False, False, False]  # the newest landings: beyond the gate
 
     def forget(self) -> None:
-        """Forget the landing before."""
+        """Forget the landings before."""
         self._before = None
+        self._fast = [False, False, False]
+
+    def mistrust(self) -> None:
+        """Take note that something else has moved the feet: landings tell nothing for a while."""
+        self._before = None
+        self._fast = [True, True, True]
 
     def landed(self, foot: int) -> Step | None:
         """Take the stance of ``foot`` that has been confirmed; return a step between floors."""
         landing = self._landing(foot)
         before, self._before = self._before, landing
-        if before is None or self._gait_ns(foot) - before.stamp_ns > LONGEST_S * 1e9:
+        if (
+            before is None
+            or self._fast[0]
+            or self._gait_ns(foot) - before.stamp_ns > LONGEST_S * 1e9
+        ):
             return None
         velocity = before.velocity
         if before.foot != foot:
@@ -75,7 +88,7 @@ class Boarding:
             velocity = 0.5 * (landing.velocity + velocity)
         elif landing is not None:
             return None
-        self._before = None
+        self.forget()
         return Step(before.epoch, before.stamp_ns, velocity)
 
     def _gait_ns(self, foot: int) -> int:
@@ -93,7 +106,11 @@ class Boarding:
         block = lay.PLL if foot == 0 else lay.PRR
         own = state[block : block + lay.BLOCK].reshape(lay.ERRORS, lay.ROW)
         S = own[lay.E_VEL : lay.E_ATT, lay.E_VEL : lay.E_ATT] + LANDING_STD**2 * np.eye(3)
-        if nis_of(velocity, S) <= self.gate or not self._steady(foot, first, velocity):
+        fast = nis_of(velocity, S) > self.gate
+        self._fast = [*self._fast[1:], fast]
+        if not fast or float(velocity @ velocity) > FASTEST**2:
+            return None
+        if not self._steady(foot, first, velocity):
             return None
         return Landing(foot, first, self._gait.stamp(first), velocity)
 

@@ -11,6 +11,7 @@ import numpy as np
 from ..config_groups import FloorConfig
 from ..constraints.method import Request
 from ..gait_history import GaitHistory
+from ..joint_estimate import Outcome
 from ..kernel import Workspace
 from ..results.events import Event, EventKind
 from ..results.payloads import FloorKind, Ride
@@ -24,6 +25,7 @@ from .standing_ride import StandingRide
 WALKWAY_STD = 0.08  # m/s, of a floor whose velocity both feet have told
 INCLINE = 0.3  # half the climb of an escalator, which may be none, over its horizontal velocity
 REST = 0.5  # share of the velocity of a floor below which stepping off leads to one at rest
+MISFIT = 20.0  # NIS a row of a constraint that does not fit the track (usual: 1)
 USUAL_S = 90.0  # after which the end of a walkway may have been missed
 
 
@@ -78,6 +80,11 @@ class Carriage:
         step = self._boarding.landed(foot)
         self._doubt()
         return [] if step is None else [self._change(step, now)]
+
+    def constrained(self, outcome: Outcome) -> None:
+        """Take note of a constraint; one that does not fit moves the feet as a floor would."""
+        if outcome.accepted and outcome.nis > MISFIT * len(outcome.innovation):
+            self._boarding.mistrust()
 
     def interrupted(self) -> None:
         """Take note that samples of a foot are missing: what the floor does now is unknown."""

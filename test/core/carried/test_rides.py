@@ -8,7 +8,7 @@ from dualfoot_ros.evaluation import track
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 
 from ..following import live, same_bits
-from ..harness import quick_engine
+from ..harness import quick_engine, walk
 from .rides import STANDING, WALKING, pairs, ride, tracked
 
 ALL = [(name, False) for name in STANDING] + [(name, True) for name in WALKING]
@@ -95,3 +95,11 @@ def test_no_real_walk_is_carried(dual_feet):
     for path in sorted(dual_feet.glob("rectangle_*/*.mat"))[::4]:
         found = track(import_recording(ImportOptions(sources=(path,))))
         assert not [e for e in found.events if e.kind is EventKind.CARRIED], path.name
+
+
+def test_a_constraint_to_a_wrong_distance_is_no_walkway():
+    hard = {"spacing_vector.spacing": 0.5, "spacing_vector.spacing_std": 0.0}
+    for settings in ({}, hard):
+        config = TrackerConfig.from_mapping({"method": "spacing_vector", **settings})
+        found = live(DualFootTracker(config, engine=quick_engine().name), walk(20.0))
+        assert not [e for e in found.events if e.kind is EventKind.CARRIED]

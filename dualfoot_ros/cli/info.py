@@ -83,6 +83,7 @@ def _inspect_walk(contents: Contents) -> None:
         FindingKind,
         Severity,
         coupled_findings,
+        ride_findings,
         stance_statistics,
         unconstrained_config,
         walk_findings,
@@ -94,7 +95,8 @@ def _inspect_walk(contents: Contents) -> None:
             alone = track_walk(samples, unconstrained_config())
             stances, findings = stance_statistics(alone), [*walk_findings(alone)]
             del alone  # before the next one: a walk of an hour takes most of a gigabyte
-            findings += coupled_findings(track_walk(samples))
+            coupled = track_walk(samples)
+            findings += [*coupled_findings(coupled), *ride_findings(coupled.events)]
         except DualFootError as error:
             finding = Finding(FindingKind.NOT_TRACKED, Severity.ERROR, str(error))
             contents.findings.append(finding)

@@ -13,6 +13,7 @@ from .errors import (
     RecordingError,
     SeriesError,
     SimulationError,
+    SnapshotError,
     SourceError,
     TimingError,
 )
@@ -37,7 +38,16 @@ from .results.passings import (
     stance_passings,
     swing_passings,
 )
-from .results.payloads import Details, DistanceLimit, Levelled, Passing, Reason, YawTurn
+from .results.payloads import (
+    Details,
+    DistanceLimit,
+    FloorKind,
+    Levelled,
+    Passing,
+    Reason,
+    Ride,
+    YawTurn,
+)
 from .results.rows import clean_stance, to_trajectory, turn_rows
 from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stance_middles
 from .results.update import FootEstimate, PedestrianEstimate, Update
@@ -101,6 +111,7 @@ __all__ = [
     "EventKind",
     "FieldSeries",
     "FloatArray",
+    "FloorKind",
     "FootEstimate",
     "FootTrajectory",
     "ImuPair",
@@ -123,10 +134,12 @@ __all__ = [
     "Reason",
     "RecordingError",
     "Refusal",
+    "Ride",
     "SeriesError",
     "SimulationError",
     "SmoothedPerson",
     "Smoother",
+    "SnapshotError",
     "SourceError",
     "StanceEpochs",
     "StancePassing",

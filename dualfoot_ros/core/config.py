@@ -9,6 +9,7 @@ from typing import Any, Self
 from .config_groups import (
     AidsConfig,
     AlignmentConfig,
+    FloorConfig,
     HeadingConfig,
     IncrementsConfig,
     InitialConfig,
@@ -29,6 +30,7 @@ GROUPS: dict[str, type[Parameters]] = {
     "initial": InitialConfig,
     "stance": StanceConfig,
     "zupt": ZuptConfig,
+    "floor": FloorConfig,
     "aids": AidsConfig,
 }
 
@@ -50,6 +52,7 @@ class TrackerConfig(Parameters):
     initial: InitialConfig = field(default_factory=InitialConfig)
     stance: StanceConfig = field(default_factory=StanceConfig)
     zupt: ZuptConfig = field(default_factory=ZuptConfig)
+    floor: FloorConfig = field(default_factory=FloorConfig)
     aids: AidsConfig = field(default_factory=AidsConfig)
     methods: Mapping[str, Parameters] = field(default_factory=dict)
 

@@ -272,6 +272,20 @@ class ZuptConfig(Parameters):
 
 
 @dataclass(frozen=True)
+class FloorConfig(Parameters):
+    """Floors that carry the person: lift, vehicle, escalator, moving walkway."""
+
+    watch: bool = parameter(True, "look for floors that move, and follow them")
+    landing_gate: float = parameter(
+        0.99,
+        "probability that the velocity with which a foot lands on a floor at rest stays within "
+        "the gate (3 degrees of freedom); both feet beyond it, and alike, stand on a moving floor",
+        minimum=0.5,
+        maximum=0.999999,
+    )
+
+
+@dataclass(frozen=True)
 class AidsConfig(Parameters):
     """What else is known of a standing foot; all off unless switched on."""
 

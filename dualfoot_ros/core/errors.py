@@ -25,6 +25,10 @@ class CalibrationError(DualFootError):
     """A recording does not tell what is asked of it, or a calibration file cannot be used."""
 
 
+class SnapshotError(DualFootError):
+    """A snapshot of a tracker is damaged, or of another version."""
+
+
 class SourceError(DualFootError):
     """A source, a format or one of its options is unknown, malformed or cannot be used."""
 

@@ -65,6 +65,7 @@ class InitialState:
         n[lay.N_SHORT_STANCE] = max(1, round(0.05 * space.rate_hz))
         n[lay.N_DECIMATE] = max(1, round(space.rate_hz / 60.0))
         n[lay.N_WALKING] = round(2.0 * space.rate_hz)
+        n[lay.N_SETTLED] = round(0.3 * space.rate_hz)
         n[lay.N_WINDOW] = min(space.ring, max(2, round(stance.window * space.rate_hz)))
         n[lay.N_STILL] = max(1, round(config.zupt.still_after * space.rate_hz))
         n[lay.N_MIN_STANCE] = max(1, round(stance.min_stance * space.rate_hz))

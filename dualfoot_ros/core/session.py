@@ -14,6 +14,7 @@ import numpy as np
 
 from .absence import Absences, Presence
 from .alignment import Alignment, Start
+from .carried import Carriage
 from .config import TrackerConfig
 from .constraints import METHODS, Method, Request, StancePhase
 from .gait_history import GaitHistory
@@ -54,7 +55,7 @@ class Session:
         self._method: Method = METHODS[config.method](config.constraint)
         stance = config.stance
         memory = stance.min_stance + stance.min_swing + stance.window + 0.1
-        memory += max(each.memory_s for each in (self._method, *aids))
+        memory = max(1.3, memory + max(each.memory_s for each in (self._method, *aids)))
         self._aids = aids
         self.rate_hz = start.rate_hz
         self.space = Workspace(start.rate_hz, memory)
@@ -69,6 +70,7 @@ class Session:
         self._gait = GaitHistory(self.space)
         self._roll_back = RollBack(self.space)
         self._stands = Stands(config, self.space)
+        self._carriage = Carriage(config.floor, self.space, self._gait, self._roll_back)
         self.absences = Absences(config, self.space, self.headings, self._gait)
         self.filled_ns = 0
         self._dt, self._values = np.empty(1), np.empty((1, 12))
@@ -91,6 +93,7 @@ class Session:
         self._config, self._aids = config, aids
         self._initial.retune(config)
         self._method.retune(config.constraint)
+        self._carriage.retune(config.floor)
         self._roll_back.forget()
         self.space.forget()
 
@@ -207,6 +210,8 @@ class Session:
         bits = [notices & 15, notices >> lay.NOTICE_SHIFT]
         self._roll_back.clean_phases(bits)
         found = self._attend_presence(notices)
+        if notices & lay.NOTICE_FLOOR:
+            found += self._attend_floor()
         for foot in range(2):
             if notices & (lay.NOTICE_STOOD << foot):
                 self._stands.take(foot, self._gait.stamp(self.space.epoch))
@@ -217,6 +222,19 @@ class Session:
         if notices & lay.NOTICE_WATCH and self._coupled:
             found += self._constrain("both", self._method, self._method.on_epoch(self._gait))
         return found
+
+    @property
+    def _watches_floor(self) -> bool:
+        """Whether two feet can tell now that they are carried."""
+        walking = self.phase == "walking" and self.absences.none
+        return self._carriage.watches and walking and not self._method.sensors_on_one_shoe
+
+    def _attend_floor(self) -> Found:
+        """Attend to what both standing feet have gained."""
+        if self._watches_floor:
+            return self._carriage.window()
+        self.space.w[lay.F_SECONDS] = 0.0
+        return []
 
     def _attend_presence(self, notices: int) -> Found:
         """Attend to feet that are without samples, or that have samples again."""
@@ -231,6 +249,7 @@ class Session:
                 self._roll_back.before_newest(partial(self.absences.back, foot, stamp))
             else:
                 continue
+            self._carriage.interrupted()
             self._roll_back.forget()
             self.space.forget()
             self._watch()
@@ -249,6 +268,8 @@ class Session:
         now = self._gait.stamp(self.space.epoch)
         found = [Event(EventKind.STANCE_START, stamp, FEET[foot], now)]
         walking = self.phase == "walking"
+        if self._watches_floor:
+            found += self._carriage.landed(foot, heading_known=self.headings.known)
         if self.absences.of[foot] is Presence.BACK:
             self.absences.level(foot)
             self._roll_back.forget()
@@ -331,6 +352,7 @@ class Session:
         done = self._roll_back.apply(requests)
         for _, outcome in done:
             method.note(outcome)
+            self._carriage.constrained(outcome)
         return [self._event(foot, *pair) for pair in done]
 
     def _event(self, foot: str, request: Request, outcome: Outcome) -> Event:
@@ -418,6 +440,7 @@ class Session:
                 self.absences.gone(foot, last, standing=standing)
                 self.absences.back(foot, last + round(gap_s * 1e9))
         space.bridge(gap_s)
+        self._carriage.interrupted()
         self._roll_back.forget()
         self._watch()
         return [*found, Event(EventKind.BRIDGED, last, "both", last + round(gap_s * 1e9))]

@@ -11,7 +11,7 @@ from .aids import AidInputs
 from .alignment import Alignment, BiasPrior, Start
 from .compiler import BackgroundEngine, compiled
 from .config import TrackerConfig
-from .errors import AlignmentError, ConfigError
+from .errors import AlignmentError, ConfigError, SnapshotError
 from .given_pose import GivenPose, given_pose
 from .kernel import Engine, interpreted
 from .kernel import layout as lay
@@ -33,6 +33,7 @@ from .samples.series import (
     stack_pairs,
 )
 from .session import Session
+from .snapshot import dump, restore
 
 
 class DualFootTracker:
@@ -49,23 +50,57 @@ class DualFootTracker:
 
     def __init__(self, config: TrackerConfig | None = None, *, engine: str = "auto") -> None:
         """Start aligning with the first pair."""
-        if engine not in ("auto", "compiled", "interpreted"):
-            raise ConfigError(
-                f"engine is {engine!r}; allowed is one of auto, compiled, interpreted"
-            )
         self.config = config or TrackerConfig()
         self.counters: Counter[str] = Counter()
-        self._background = BackgroundEngine() if engine == "auto" else None
-        self._engine = compiled() if engine == "compiled" else interpreted()
+        self._session: Session | None = None
+        self.use_engine(engine)
         self._pose: GivenPose | None = None
         self._inputs = AidInputs(self.config.aids, self.counters)
         self._increments: dict[str, Increments | None] = dict.fromkeys(FEET)
         self._priors: dict[str, BiasPrior] = {}
         self._begin()
 
+    def use_engine(self, engine: str) -> None:
+        """Go on with another form of the kernel: "auto", "compiled" or "interpreted".
+
+        Raises
+        ------
+        ConfigError
+            For any other ``engine``.
+        """
+        if engine not in ("auto", "compiled", "interpreted"):
+            raise ConfigError(
+                f"engine is {engine!r}; allowed is one of auto, compiled, interpreted"
+            )
+        self._background = BackgroundEngine() if engine == "auto" else None
+        self._engine = compiled() if engine == "compiled" else interpreted()
+        if self._session is not None:
+            self._session.use(self._engine)
+
+    def save(self) -> bytes:
+        """Return a snapshot of all that the tracker is, to go on from it by `load`."""
+        return dump(self, self.config.to_mapping())
+
+    @classmethod
+    def load(cls, snapshot: bytes, *, engine: str = "auto") -> DualFootTracker:
+        """Return the tracker of a ``snapshot``; it goes on as that one would have, bit for bit.
+
+        Raises
+        ------
+        SnapshotError
+            When the snapshot is damaged, or of another version.
+        ConfigError
+            For an unknown ``engine``.
+        """
+        tracker = restore(snapshot)
+        if not isinstance(tracker, cls):
+            raise SnapshotError("the snapshot is not that of a tracker")
+        tracker.use_engine(engine)
+        return tracker
+
     def _begin(self) -> None:
         self._alignment = Alignment(self.config, self._priors)
-        self._session: Session | None = None
+        self._session = None
         self._gate = PairGate()
         self._pending: list[Event] = []
         self._aids = self._inputs.methods()

@@ -23,6 +23,7 @@ from ..inspection import (
     check_usable,
     coupled_findings,
     rate_findings,
+    ride_findings,
     start_findings,
     unconstrained_config,
     walk_findings,
@@ -119,7 +120,8 @@ def run_checked(
     trajectory = track_walk(samples, config, options.priors)
     run_s += time.process_time() - begin
     del samples
-    of_walk = [*start_findings(trajectory.events), *rate_findings(trajectory), *alone]
+    events = trajectory.events
+    of_walk = [*start_findings(events), *ride_findings(events), *rate_findings(trajectory), *alone]
     if on_both:
         of_walk += _walk_findings(config, trajectory)
     evaluation = evaluate(

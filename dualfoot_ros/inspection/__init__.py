@@ -16,6 +16,7 @@ from .findings import (
     qualities_of,
     rate_findings,
     require_usable,
+    ride_findings,
     start_findings,
     walk_findings,
 )
@@ -67,6 +68,7 @@ __all__ = [
     "rate_findings",
     "recorded_fields",
     "require_usable",
+    "ride_findings",
     "side_by_side",
     "stance_statistics",
     "start_findings",

@@ -7,6 +7,7 @@ from .open_bag import METADATA, is_bag, list_topics
 from .read import read_bag, read_logged
 from .recording import Correction, Recording
 from .reference import Reference
+from .snapshot_file import read_snapshot, write_snapshot
 from .storage.bag_source import TopicInfo
 from .storage.bag_writer import new_bag
 from .topic_choice import TopicChoice, choose_topics, find_topics, topics_of_foot
@@ -42,8 +43,10 @@ __all__ = [
     "read_arrivals",
     "read_bag",
     "read_logged",
+    "read_snapshot",
     "topics_of_foot",
     "write_bag",
+    "write_snapshot",
     "write_text",
     "write_track_bag",
 ]

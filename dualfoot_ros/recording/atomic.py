@@ -29,6 +29,23 @@ def write_text(path: Path, text: str) -> None:
         written.replace(path)
 
 
+def write_bytes(path: Path, data: bytes) -> None:
+    """Write ``data`` to ``path`` in one step; an existing file is replaced.
+
+    Raises
+    ------
+    RecordingError
+        When ``path`` exists and is no ordinary file (a folder, a device).
+    OSError
+        When it cannot be written; names ``path``.
+    """
+    check_file(path, overwrite=True)
+    with _scratch_folder(path) as scratch, _naming(path):
+        written = scratch / path.name
+        written.write_bytes(data)
+        written.replace(path)
+
+
 def check_file(path: Path, *, overwrite: bool = False) -> None:
     """Raise :class:`RecordingError` when ``path`` is there and no file, or not to be replaced."""
     if not os.path.lexists(path):

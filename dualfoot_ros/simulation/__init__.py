@@ -3,6 +3,7 @@
 from ..core import SimulationError
 from .air_pressure import BarometerConfig
 from .clocks import ClockConfig
+from .floors import MovingFloorConfig, on_moving_floor
 from .magnetometer import MagnetometerConfig
 from .routes import ROUTES, Route, route
 from .sensors import GRADES, SensorConfig, grade
@@ -19,6 +20,7 @@ __all__ = [
     "ClockConfig",
     "Gait",
     "MagnetometerConfig",
+    "MovingFloorConfig",
     "Route",
     "SensorConfig",
     "Simulation",
@@ -26,6 +28,7 @@ __all__ = [
     "Walk",
     "WalkConfig",
     "grade",
+    "on_moving_floor",
     "rigid_pair",
     "route",
     "simulate",

@@ -21,6 +21,11 @@ def test_no_paper_has_the_pivot_the_longer_stand_or_the_drift_of_the_height(name
 
 
 @pytest.mark.parametrize("name", PAPERS)
+def test_no_paper_looks_for_floors_that_move(name):
+    assert not load_config(name).floor.watch
+
+
+@pytest.mark.parametrize("name", PAPERS)
 def test_every_paper_keeps_the_two_sample_terms_whatever_the_source_says(name):
     increments = load_config(name).increments
     for foot in ("left", "right"):

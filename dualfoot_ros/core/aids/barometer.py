@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -57,10 +58,7 @@ class Barometer(Method):
             self._counters[Refusal.STANCES_WITHOUT_PRESSURE] += 1
             return ()
         height = sum(inside) / len(inside)
-
-        def apply(estimate: JointEstimate) -> Outcome:
-            return self._apply(estimate, foot, worn, height)
-
+        apply = partial(self._apply, foot=foot, worn=worn, height=height)
         return (Request(stance.last, True, apply, EventKind.AID),)
 
     def _measured(self, foot: int, first_ns: int, last_ns: int) -> tuple[str, list[float]]:

@@ -14,6 +14,7 @@ have said already, so it is used where a paper is to be followed and nowhere els
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from ..config_groups import AidsConfig
 from ..constraints.method import Gait, Method, Request, StancePhase
@@ -42,12 +43,7 @@ class FlatFloor(Method):
 
     def on_stance_start(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
         """Return the height of the floor, now."""
-
-        def apply(estimate: JointEstimate) -> Outcome:
-            outcome = self._height(estimate, stance.foot)
-            self._stood[stance.foot] = estimate.position(stance.foot)
-            return outcome
-
+        apply = partial(self._stand, foot=stance.foot)
         return (Request(gait.now, False, apply, EventKind.AID),)
 
     def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
@@ -55,12 +51,13 @@ class FlatFloor(Method):
         stood, self._stood[stance.foot] = self._stood[stance.foot], None
         if stood is None or not self.config.static_std or not gait.remembers(stance.last):
             return ()
-        place = stood
-
-        def apply(estimate: JointEstimate) -> Outcome:
-            return self._place(estimate, stance.foot, place)
-
+        apply = partial(self._place, foot=stance.foot, place=stood)
         return (Request(stance.last, True, apply, EventKind.AID),)
+
+    def _stand(self, estimate: JointEstimate, foot: int) -> Outcome:
+        outcome = self._height(estimate, foot)
+        self._stood[foot] = estimate.position(foot)
+        return outcome
 
     def _height(self, estimate: JointEstimate, foot: int) -> Outcome:
         innovation = estimate.position(foot)[2:] - self._floor_m

@@ -28,6 +28,7 @@ import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
@@ -110,10 +111,9 @@ class MagneticHeading(Method):
 
         stamp_ns, iron = gait.stamp(moment), self._iron[foot]
         earth = (iron.tesla, iron.field)  # as known now, whenever it is run again
-
-        def apply(estimate: JointEstimate) -> Outcome:
-            return self._apply(estimate, FieldStance(foot, stamp_ns, measured), trusted, earth)
-
+        apply = partial(
+            self._apply, stance=FieldStance(foot, stamp_ns, measured), trusted=trusted, earth=earth
+        )
         return (Request(moment, True, apply, EventKind.AID),)
 
     def _measured(self, stance: StancePhase, moment: int, gait: Gait) -> FloatArray | None:

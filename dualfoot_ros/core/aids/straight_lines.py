@@ -21,6 +21,7 @@ import math
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -132,10 +133,7 @@ class StraightLines(Method):
         direction = foot.mean(EVERY)
         reference = self._reference(foot.mean())
         innovation = math.remainder(direction - reference, math.pi)
-
-        def apply(estimate: JointEstimate) -> Outcome:
-            return self._apply(estimate, stance.foot, direction, innovation)
-
+        apply = partial(self._apply, foot=stance.foot, direction=direction, innovation=innovation)
         return (Request(gait.now, False, apply, EventKind.AID),)
 
     def _reference(self, direction: float) -> float:

@@ -13,7 +13,7 @@ import tempfile
 from importlib import metadata
 from pathlib import Path
 
-from ..kernel import kernel_functions, layout
+from ..kernel import MODULES, kernel_functions
 
 READY = "ready"  # name of the file that says that every entry is in the cache
 
@@ -48,8 +48,13 @@ def _loaded_code() -> str:
         (name, f.__code__.co_code.hex(), f.__code__.co_consts, f.__code__.co_names)
         for name, f in sorted(kernel_functions().items())
     ]
-    offsets = sorted((k, v) for k, v in vars(layout).items() if isinstance(v, int | float))
-    return repr((codes, offsets))
+    numbers = sorted(
+        (module.__name__, name, value)
+        for module in MODULES
+        for name, value in vars(module).items()
+        if isinstance(value, int | float)
+    )
+    return repr((codes, numbers))
 
 
 def _numba_version() -> str:

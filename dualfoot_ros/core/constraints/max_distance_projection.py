@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -46,7 +47,7 @@ class MaxDistanceProjection(Method):
             return ()
         moving = 1 if still[0] else 0
         bound = self.config.bound
-        return (Request(gait.now, False, lambda estimate: pull(estimate, moving, bound)),)
+        return (Request(gait.now, False, partial(pull, moving=moving, bound=bound)),)
 
 
 def pull(estimate: JointEstimate, moving: int, bound: float) -> Outcome:

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -75,7 +76,8 @@ class RigidPair(Method):
             return ()
         now = gait.now
         ahead = [self._ahead(gait, sensor) for sensor in range(2)]
-        return (Request(now, False, lambda estimate: self.apply(estimate, gait, now, ahead)),)
+        apply = partial(self.apply, gait=gait, epoch=now, ahead=ahead)
+        return (Request(now, False, apply),)
 
     def _ahead(self, gait: Gait, sensor: int) -> FloatArray:
         """Return by how much the rate (3,) changes from the newest sample's middle to its end."""

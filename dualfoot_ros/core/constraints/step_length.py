@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -68,7 +69,7 @@ class StepLength(Method):
         if still[0] == still[1]:
             return ()
         swinging = 1 if still[0] else 0
-        return (Request(gait.now, False, lambda estimate: self.apply(estimate, swinging)),)
+        return (Request(gait.now, False, partial(self.apply, swinging=swinging)),)
 
     def apply(self, estimate: JointEstimate, swinging: int) -> Outcome:
         """Update with eqs (23)-(26)."""

@@ -11,9 +11,27 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from . import considered_update, covariance, detector, epoch, measurement_update, strapdown, turn
+from . import (
+    considered_update,
+    covariance,
+    detector,
+    epoch,
+    floor,
+    measurement_update,
+    strapdown,
+    turn,
+)
 
-MODULES = (strapdown, covariance, considered_update, measurement_update, detector, epoch, turn)
+MODULES = (
+    strapdown,
+    covariance,
+    considered_update,
+    measurement_update,
+    detector,
+    floor,
+    epoch,
+    turn,
+)
 ENTRIES = (
     "advance",
     "rerun",

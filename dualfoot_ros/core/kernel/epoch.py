@@ -9,6 +9,7 @@ import math
 
 from .covariance import propagate_foot
 from .detector import detect
+from .floor import carry, floor_moves, watch_floor
 from .layout import (
     A_COUNT,
     A_FOOT,
@@ -22,6 +23,9 @@ from .layout import (
     E_POS,
     E_VEL,
     FLAG_STILL,
+    FLOOR_STD,
+    FLOOR_UP_STD,
+    FLOOR_VEL,
     FOOT,
     N_BACK,
     N_EPOCH,
@@ -35,6 +39,7 @@ from .layout import (
     N_STILL,
     N_STRIDE,
     NOTICE_BACK,
+    NOTICE_FLOOR,
     NOTICE_GONE,
     NOTICE_SHIFT,
     NOTICE_STOOD,
@@ -70,7 +75,9 @@ from .layout import (
     ZUPT_INFO,
 )
 from .measurement_update import zupt
-from .strapdown import mechanize
+from .strapdown import mechanize, orthonormalise
+
+ORTHONORMAL_EVERY = 32768  # epochs, over which rounding turns an attitude by 1e-13
 
 
 def filter_epoch(w, n, epoch):
@@ -105,6 +112,11 @@ def filter_epoch(w, n, epoch):
         else:
             for k in range(ZUPT_INFO):
                 w[Z_LEFT + foot * ZUPT_INFO + k] = 0.0
+    if floor_moves(w):
+        carry(w, dt)
+    if epoch % ORTHONORMAL_EVERY == ORTHONORMAL_EVERY - 1:
+        orthonormalise(w, 0)
+        orthonormalise(w, 1)
 
 
 def missing(w, sample):
@@ -200,6 +212,8 @@ def advance(w, n, dts, samples, start, stop, out):
             if collect_stand(w, foot, (flags // FLAG_STILL >> foot) & 1, o):
                 n[N_NOTICE] = n[N_NOTICE] | (NOTICE_STOOD << foot)
         filter_epoch(w, n, epoch)
+        if watch_floor(w, n, dts[k]):
+            n[N_NOTICE] = n[N_NOTICE] | NOTICE_FLOOR
         if squared_distance(w) > w[C_WATCH]:
             n[N_NOTICE] = n[N_NOTICE] | NOTICE_WATCH
         emit(w, n, out, k)
@@ -272,6 +286,8 @@ def emit(w, n, out, k):
         out[k, o + O_COV_POS + 8] += drifted
         for i in range(ZUPT_INFO):
             out[k, o + O_ZUPT + i] = w[Z_LEFT + foot * ZUPT_INFO + i]
+    if floor_moves(w):
+        emit_floor(w, out, k)
     for i in range(3):
         for j in range(3):
             out[k, O_RELATIVE + 3 * i + j] = (
@@ -279,6 +295,16 @@ def emit(w, n, out, k):
                 + w[PRR + ROW * i + j]
                 - (w[PLR + ROW * i + j] + w[PLR + ROW * j + i])
             )
+
+
+def emit_floor(w, out, k):
+    """Add the velocity of the floor to that of both feet in row ``k`` of ``out`` (N, OUT)."""
+    for foot in range(2):
+        o = foot * O_FOOT
+        for i in range(3):
+            std = w[FLOOR_UP_STD] if i == 2 else w[FLOOR_STD]
+            out[k, o + O_VEL + i] += w[FLOOR_VEL + i]
+            out[k, o + O_COV_VEL + 4 * i] += std * std
 
 
 def quaternion(w, r, out, k, o):

@@ -17,7 +17,11 @@ GAMMA = 24  # previous velocity increment, m/s
 RATE = 27  # last bias-corrected angular rate, rad/s
 FORCE = 30  # last bias-corrected specific force, m/s^2
 FOLLOWS = 33  # 1 when the sample before was the one before in time, 0 at the start and after a gap
-WALKED = 34  # time walked since the height was observed, s; in the left foot's state only
+FLOOR_VEL = 34  # of the left foot only: velocity of the floor under both feet, m/s
+FLOOR_STD = 37  # its standard deviation, horizontal; 0 with the next: the floor is at rest
+FLOOR_UP_STD = 38  # vertical, m/s
+FLOOR_S = 39  # time since it has moved, s
+WALKED = FOOT + 34  # of the right foot only: time walked since the height was observed, s
 
 ROW = 16  # covariance blocks are 15 rows of 15, padded to 16
 BLOCK = 15 * ROW
@@ -89,8 +93,15 @@ A_SUM = 2  # of the angular rate, 3
 A_SQUARES = 5  # 3
 A_STRIDE = 8
 
+# --- acceleration of both feet while they stand, for a floor that moves --------------------------
+F_SECONDS = A_FOOT + 2 * A_STRIDE  # length of the window so far
+F_SUM = F_SECONDS + 1  # velocity gained in it by the left and the right foot, m/s, 3 each
+F_REST = F_SUM + 6  # acceleration of both feet in earlier windows of the stand, m/s^2, 3 each
+F_NEWEST = F_REST + 6  # the same of the newest window, which may already be a start
+F_WINDOWS = F_NEWEST + 6  # quiet windows of the stand
+
 # --- scratch -------------------------------------------------------------------------------------
-S_A = A_FOOT + 2 * A_STRIDE  # a 15x16 block
+S_A = F_WINDOWS + 1  # a 15x16 block
 S_B = S_A + BLOCK  # another
 SIDE = ROW  # error state of one foot in a vector of both: 15 and one pad
 JOINT = 2 * SIDE  # error state of both feet, left then right
@@ -137,6 +148,7 @@ N_STILL = 7  # samples after which a stance is a standstill
 N_SHORT_STANCE = 8  # samples of a short stance, if it is clear
 N_DECIMATE = 9  # samples to one value of the statistic's history
 N_WALKING = 10  # samples for which a foot counts as walking after a swing
+N_SETTLED = 11  # samples without a turn after which a foot has come to rest on its floor
 N_FOOT = 16  # then per foot:
 N_STRIDE = 8
 N_PHASE = 0  # one of the phases below
@@ -144,6 +156,7 @@ N_START = 1  # first epoch of the (candidate) stance
 N_LEAVE = 2  # first epoch after it
 N_BACK = 3  # first epoch with samples since the foot was missing
 N_GONE = 4  # 1 while the foot has no samples
+N_TURNED = 5  # newest epoch in which the foot turned
 N_FLAGS = N_FOOT + 2 * N_STRIDE  # ring of flags: bit 0, 1 zero velocity left, right
 FLAG_STILL = 4  # bits 2, 3: ... and standing still
 
@@ -156,6 +169,7 @@ NOTICE_WATCH = 256  # the feet are farther apart than the method allows
 NOTICE_STOOD = 512  # a window of a standing left foot is complete; twice that for the right
 NOTICE_GONE = 2048  # the left foot has no sample any more; twice that for the right
 NOTICE_BACK = 8192  # the left foot has samples again; twice that for the right
+NOTICE_FLOOR = 32768  # both feet gain velocity alike while they stand, or the floor moves
 STOOD_S = 0.75  # length of that window
 
 # --- output row ----------------------------------------------------------------------------------

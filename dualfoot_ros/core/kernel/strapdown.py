@@ -94,6 +94,17 @@ def rotate_body(w, foot):
         w[r + i] = w[S_TMP + i]
 
 
+def orthonormalise(w, foot):
+    """Take the rounding errors of many steps off R_nb of ``foot``: R (3 I - R' R) / 2."""
+    r = foot * FOOT + ROT
+    for i in range(3):
+        for j in range(3):
+            total = w[r + i] * w[r + j] + w[r + 3 + i] * w[r + 3 + j]
+            w[S_ROTATION + 3 * i + j] = -0.5 * (total + w[r + 6 + i] * w[r + 6 + j])
+        w[S_ROTATION + 4 * i] += 1.5
+    rotate_body(w, foot)
+
+
 def rotate_navigation(w, foot):
     """Left-multiply R_nb of ``foot`` by S_ROTATION (a rotation of the navigation frame)."""
     r = foot * FOOT + ROT

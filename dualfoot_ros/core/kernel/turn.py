@@ -4,6 +4,7 @@ from .layout import (
     E_ATT,
     E_POS,
     E_VEL,
+    FLOOR_VEL,
     FOOT,
     PLL,
     PLR,
@@ -66,5 +67,6 @@ def turn(w, state, foot, c, s, pivot, shift):
     symmetrise(w, block)
     if foot == 0:
         turn_rows(w, state + PLR, c, s)
+        turn_vector(w, state + FLOOR_VEL, 1, c, s)  # it stands with the left foot
     else:
         turn_columns(w, state + PLR, c, s)

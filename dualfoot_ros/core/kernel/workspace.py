@@ -93,8 +93,16 @@ class Workspace:
         return self.w[block : block + lay.BLOCK].reshape(15, lay.ROW)[:, :15]
 
     def blocks(self) -> FloatArray:
-        """Return a copy of the covariance blocks (3 BLOCK,): left, right, cross."""
-        return self.w[lay.PLL : lay.STATE].copy()
+        """Return a copy of the covariance blocks (3 BLOCK,): left, right, cross.
+
+        Velocities are in the navigation frame: that of the floor counts for both feet.
+        """
+        blocks = self.w[lay.PLL : lay.STATE].copy()
+        level, up = self.w[lay.FLOOR_STD], self.w[lay.FLOOR_UP_STD]
+        if level > 0.0 or up > 0.0:
+            for i, std in enumerate((level, level, up)):
+                blocks[lay.DIAGONAL * (lay.E_VEL + i) :: lay.BLOCK] += std**2
+        return blocks
 
     def put_covariance(self, covariance: FloatArray) -> None:
         """Write the full covariance (30, 30); of symmetric elements those above the diagonal."""

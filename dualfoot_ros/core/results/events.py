@@ -29,6 +29,7 @@ class EventKind(StrEnum):
     MISSING = "missing"
     JOINED = "joined"
     BRIDGED = "bridged"
+    CARRIED = "carried"
 
 
 @dataclass(frozen=True)

@@ -192,6 +192,48 @@ class Passing:
         }
 
 
+class FloorKind(StrEnum):
+    """What carries a person.
+
+    Attributes
+    ----------
+    LIFT : it moves up or down while both feet stand
+    VEHICLE : it moves ahead while both feet stand
+    WALKWAY : a moving walkway or an escalator, which the feet step on and off
+    """
+
+    LIFT = "lift"
+    VEHICLE = "vehicle"
+    WALKWAY = "walkway"
+
+
+@dataclass(frozen=True)
+class Ride:
+    """A floor that carries the person: its velocity (3,) m/s, and how well that is known, m/s.
+
+    ``seconds`` is how long it has carried the person.  When it does so no more (``over``), the
+    velocity is the mean of that time, and zero for a vehicle, of which nothing is known.
+    """
+
+    kind: FloorKind
+    velocity: Triple
+    std: float
+    up_std: float
+    seconds: float
+    over: bool = False
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything by name."""
+        return {
+            "floor": str(self.kind),
+            "velocity": list(self.velocity),
+            "std": self.std,
+            "up_std": self.up_std,
+            "seconds": self.seconds,
+            "over": self.over,
+        }
+
+
 @dataclass(frozen=True)
 class FieldDirection:
     """The magnetic field (3,) T at a stance of ``foot`` (0, 1), and its level direction, rad."""

@@ -4,6 +4,7 @@ from .finding import Finding, Key, Severity
 from .finding_kinds import FindingKind
 from .rate_findings import find_other_rate, rate_findings, seen_rate_hz
 from .recording_findings import check_usable, findings_of, qualities_of, require_usable
+from .ride_findings import ride_findings
 from .start_findings import start_findings
 from .stream_findings import STUCK_SHARE
 from .unit_findings import GRAVITY_ERROR
@@ -23,6 +24,7 @@ __all__ = [
     "qualities_of",
     "rate_findings",
     "require_usable",
+    "ride_findings",
     "seen_rate_hz",
     "start_findings",
     "walk_findings",

@@ -90,6 +90,7 @@ class FindingKind(StrEnum):
     MIRRORED_FOOT = "mirrored_foot", True
     FEET_APART = "feet_apart", True
     SPACING = "spacing", True
+    CARRIED = "carried", True
 
     # topics
     NO_PUBLISHER = "no_publisher"

@@ -11,7 +11,14 @@ from rclpy.clock import Clock
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
 from ...core import FEET, DualFootTracker, Event, EventKind, Refusal, Update, refusal_of
-from ...inspection import Finding, FindingKind, Severity, find_other_rate, start_findings
+from ...inspection import (
+    Finding,
+    FindingKind,
+    Severity,
+    find_other_rate,
+    ride_findings,
+    start_findings,
+)
 from ...timing import Aligner
 from ..ros.diagnostics import OVER_S, Rates
 from ..ros.status import Described, Status
@@ -57,6 +64,7 @@ class FusionReport:
         self._correction_m = 0.0
         self._phase = "aligning"
         self._start: Finding | None = None
+        self._ride: Finding | None = None
         self._stance = dict.fromkeys(FEET, False)
         self._stamp_ns = 0
         self._last_stance_ns = dict.fromkeys(FEET, 0)
@@ -110,8 +118,11 @@ class FusionReport:
             self._stamps_ns.clear()
             if self._start is not None:
                 self._logger.warning(self._start.sentence)
+            self._ride = None
         elif event.kind is EventKind.STOOD:
             self._start = None
+        elif event.kind is EventKind.CARRIED:
+            self._ride = next(ride_findings([event]), None)
         if event.kind is EventKind.CONSTRAINT and event.accepted and len(event.innovation):
             self._correction_m = float(np.linalg.norm(event.innovation))
 
@@ -144,6 +155,8 @@ class FusionReport:
             stamps_ns = np.fromiter(self._stamps_ns, dtype=np.int64)
             for finding in find_other_rate(self._rate_hz, stamps_ns):
                 status.note(finding)
+        if self._ride is not None:
+            status.note(self._ride)
         if tracker.phase == "aligning" and tracker.complaint:
             text = f"aligning: stand still ({tracker.complaint})"
             status.note(Finding(FindingKind.ALIGNING, Severity.WARNING, text))

@@ -4,8 +4,9 @@
 
 A simulated lap is published again and again in real time to a `fusion` in a process of its own.
 Its resident memory is read every second, and the latency of its odometry is measured from the
-moment a pair of samples is sent.  The growth is the slope of a line through the second half, given
-with its standard error and for a day; a shorter run only widens that error.
+moment a pair of samples is sent.  An inspection of the last minute takes some memory for a moment,
+so the growth is the slope of the lows of the second half, given with its standard error and for a
+day; a shorter run only widens that error.
 """
 
 from __future__ import annotations
@@ -132,17 +133,17 @@ def soak(minutes: float, rate: float, engine: str) -> Record:
 
 
 def growth(memory: list[tuple[float, float]]) -> tuple[float, float]:
-    """Return the slope of the second half of (s, MiB), MiB an hour, and its standard error.
+    """Return the slope of the lows of (s, MiB) in the second half, MiB an hour, and its error.
 
-    Neighbouring readings are not independent: the error is that of means over ten stretches.
+    Neighbouring readings are not independent: the error is that of the lows of ten stretches.
     """
     half = np.array(memory)[len(memory) // 2 :]
-    means = np.array([part.mean(axis=0) for part in np.array_split(half, 10)])
-    hours, mib = means[:, 0] / 3600.0, means[:, 1]
+    lows = np.array([part[part[:, 1].argmin()] for part in np.array_split(half, 10)])
+    hours, mib = lows[:, 0] / 3600.0, lows[:, 1]
     lever = hours - hours.mean()
     slope = float(lever @ mib / (lever @ lever))
     rest = mib - mib.mean() - slope * lever
-    return slope, float(np.sqrt(rest @ rest / (len(means) - 2) / (lever @ lever)))
+    return slope, float(np.sqrt(rest @ rest / (len(lows) - 2) / (lever @ lever)))
 
 
 def main() -> None:
@@ -154,9 +155,11 @@ def main() -> None:
     options = parser.parse_args()
     record = soak(options.minutes, options.rate, options.engine)
     slope, error = growth(record.memory)
-    mib = [value for _, value in record.memory]
+    mib = np.array([value for _, value in record.memory])
+    parts = np.array_split(mib, 4)
     print(f"{record.sent} pairs sent in {options.minutes:g} min, 2 x {options.rate:g} Hz")
-    print(f"memory: {mib[len(mib) // 2]:.1f} MiB half-way, {mib[-1]:.1f} MiB at the end")
+    lows = ", ".join(f"{part.min():.1f}" for part in parts)
+    print(f"memory: lows of the quarters {lows} MiB; most at any moment {mib.max():.1f} MiB")
     print(
         f"growth: {slope:+.2f} +- {error:.2f} MiB an hour, "
         f"{24 * slope:+.0f} +- {24 * error:.0f} MiB a day at this rate"

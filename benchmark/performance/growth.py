@@ -32,11 +32,11 @@ def growth_figures(hours: float = HOURS) -> list[Figure]:
     done_s = 0.0
     tracemalloc.start()
     for minutes in [m for m in MINUTES if m <= hours * 60.0]:
-        _run(tracker, feed, minutes * 60.0 - SAMPLED_S - done_s)
+        _run(tracker, feed, minutes * 60.0 - done_s)
+        costs[minutes] = _run(tracker, feed, SAMPLED_S)
+        done_s = minutes * 60.0 + SAMPLED_S
         gc.collect()
         kept[minutes] = tracemalloc.get_traced_memory()[0] / 1e6
-        costs[minutes] = _run(tracker, feed, SAMPLED_S)
-        done_s = minutes * 60.0
     tracemalloc.stop()
     first = min(costs)
     return [

@@ -76,6 +76,8 @@ def output_figures(seconds: float = 30.0) -> list[Figure]:
 
 
 def _figures(sides: dict[str, Side], used: dict[str, tuple[float, float]]) -> list[Figure]:
+    if not all(sides[name].latency_s for name in SIDES):
+        raise RuntimeError("a node gave no odometry: this machine is too busy for real time")
     (cpu, memory), (unit, least) = (used[name] for name in SIDES)
     late, early = (float(np.quantile(sides[name].latency_s, 0.99)) for name in SIDES)
     to = "pass-through"

@@ -11,11 +11,13 @@ import os
 import resource
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
+CACHE = "dualfoot_benchmark_bytecode"
 
 
 class Usage(NamedTuple):
@@ -28,14 +30,18 @@ class Usage(NamedTuple):
 def usage_of(command: Sequence[str], environment: Mapping[str, str] | None = None) -> Usage:
     """Run a command of this Python (its arguments) and return what it took.
 
+    Modules are compiled to bytecode as where the package is installed: by the first run of each.
+
     Raises
     ------
     RuntimeError
         When it fails; says what it wrote.
     """
+    compiled = {"PYTHONPYCACHEPREFIX": str(Path(tempfile.gettempdir()) / CACHE)}
+    own = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     done = subprocess.run(
         [sys.executable, str(Path(__file__).resolve()), sys.executable, *command],
-        env={**os.environ, "PYTHONPATH": str(ROOT), **(environment or {})},
+        env={**own, **compiled, "PYTHONPATH": str(ROOT), **(environment or {})},
         capture_output=True,
         text=True,
         check=False,

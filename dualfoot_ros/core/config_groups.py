@@ -162,7 +162,7 @@ class InitialConfig(Parameters):
     velocity: float = parameter(0.01, "velocity", unit="m/s", minimum=0.0, maximum=10.0)
     tilt: float = parameter(0.01, "roll and pitch", unit="rad", minimum=0.0, maximum=1.0)
     yaw: float = parameter(
-        0.03, "yaw against the first strides", unit="rad", minimum=0.0, maximum=3.2
+        0.01, "yaw against the first strides", unit="rad", minimum=0.0, maximum=3.2
     )
     gyro_bias: float = parameter(
         8.0e-4, "lower bound of the gyro bias", unit="rad/s", minimum=0.0, maximum=1.0
@@ -233,6 +233,14 @@ class ZuptConfig(Parameters):
         "papers, or nothing (none): they are taken as known, and their uncertainty is carried",
         choices=("full", "none"),
     )
+    height_drift: float = parameter(
+        3.0e-3,
+        "vertical velocity they let through, alike in every stride and foot: so much less certain "
+        "is the height, until a barometer, floor or pose gives it",
+        unit="m/s",
+        minimum=0.0,
+        maximum=1.0,
+    )
     bias_known: float = parameter(
         7.0e-3,
         "uncertainty of a gyro bias above which zero-velocity updates correct heading and bias "
@@ -286,7 +294,12 @@ class AidsConfig(Parameters):
         0.01, "unevenness of the floor", unit="m", minimum=1e-4, maximum=1.0
     )
     static_std: float = parameter(
-        0.02, "how far a sensor moves on a standing foot", unit="m", minimum=1e-4, maximum=1.0
+        0.0,
+        "flat_floor: how far a sensor moves on a standing foot (0: its place is no measurement); "
+        "as in the paper, whose place is taken for known, so that the covariance is too small",
+        unit="m",
+        minimum=0.0,
+        maximum=1.0,
     )
     barometer: bool = parameter(False, "height from air pressure in stance")
     barometer_std: float = parameter(

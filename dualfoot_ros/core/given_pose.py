@@ -83,6 +83,7 @@ def apply_covariance(space: Workspace, covariance: FloatArray, *, replace: bool)
     joint = space.covariance()
     spread = _spread(space)
     if replace:
+        space.w[lay.WALKED] = 0.0
         keep = np.eye(JOINT_ERRORS) - spread @ _mean_pose()
         joint = keep @ joint @ keep.T
     joint += spread @ covariance @ spread.T

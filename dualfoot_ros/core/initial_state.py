@@ -76,6 +76,7 @@ class InitialState:
         zupt, stance = config.zupt, config.stance
         growth = self._space.rate_hz / zupt.std_rate if zupt.std_rate > 0.0 else 1.0
         w[lay.C_ZUPT_VAR] = zupt.std**2 * growth
+        w[lay.C_HEIGHT_DRIFT] = zupt.height_drift**2
         w[lay.C_ZUPT_STILL_VAR] = zupt.still_std**2
         w[lay.C_ZUPT_RATE_VAR] = zupt.rate_std**2 * growth
         w[lay.C_GLRT_FORCE] = 1.0 / stance.force_std**2

@@ -163,6 +163,8 @@ class JointEstimate:
         w = self._space.w
         self._collect(rows)
         m = len(rows)
+        if any(map(observes_height, rows)):
+            w[lay.WALKED] = 0.0
         for i in range(m):
             if w[lay.S_S + 4 * i] < ROUNDING * self._magnitude(rows[i]):
                 w[lay.S_S + 4 * i] = 0.0
@@ -205,6 +207,11 @@ class JointEstimate:
                 pad = lay.SIDE - lay.ERRORS if state >= lay.ERRORS else 0
                 w[lay.S_H + lay.JOINT * k + state + pad] = coefficient
         self._engine.collect(w, len(rows))
+
+
+def observes_height(row: Row) -> bool:
+    """Return whether ``row`` measures a height, and not how high one foot is above the other."""
+    return abs(sum(row.get(lay.position_row(foot, 2), 0.0) for foot in range(2))) > ROUNDING
 
 
 def relative_row(direction: Sequence[float]) -> dict[int, float]:

@@ -132,9 +132,25 @@ def test_a_subscriber_who_turns_the_rows_it_has_gets_what_run_gives():
 
 def test_the_separations_covariance_is_turned_with_the_feet():
     """While the feet are uncorrelated it is the sum of the two positions' covariances."""
-    result = tracker().run(*walk(16.0, **STRAIGHT).series())
+    result = tracker(zupt={"height_drift": 0.0}).run(*walk(16.0, **STRAIGHT).series())
     total = result.left.position_covariance + result.right.position_covariance
     assert np.allclose(result.relative_covariance, total, atol=1e-12)
+
+
+def test_the_height_drifts_with_both_feet_alike_and_without_the_root_of_time():
+    still = tracker(zupt={"height_drift": 0.0}).run(*walk(20.0, **STRAIGHT).series())
+    drifting = tracker(zupt={"height_drift": 0.1}).run(*walk(20.0, **STRAIGHT).series())
+    grown = [
+        drifting.left.position_covariance[:, 2, 2] - still.left.position_covariance[:, 2, 2],
+        drifting.right.position_covariance[:, 2, 2] - still.right.position_covariance[:, 2, 2],
+    ]
+    walked_s = np.sqrt(grown[0]) / 0.1
+    assert np.allclose(grown[0], grown[1], atol=1e-12)
+    np.testing.assert_allclose(drifting.relative_covariance, still.relative_covariance, 1e-9)
+    np.testing.assert_array_equal(drifting.left.position, still.left.position)
+    steps = np.diff(walked_s)
+    assert steps.min() > -1e-6 and steps.max() < 1.01 / 60.0
+    assert 8.0 < walked_s[-1] < 20.0
 
 
 def test_the_pose_covariance_says_that_a_heading_error_moves_the_foot_sideways():

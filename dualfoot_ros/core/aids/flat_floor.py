@@ -2,8 +2,13 @@
 
 Ma and Särkkä 2023, II-B: during the stance the height is zero and the horizontal position does not
 change.  Their pseudo-measurement at every sample claims the same centimetre over and over; here
-each stance gives it once: the height when the stance is confirmed, and at its end the horizontal
-position it had then.  For level ground only: on stairs it is wrong, and off by default.
+each stance gives it once: the height when the stance is confirmed, and, with ``static_std``, at
+its end the horizontal position it had then.  For level ground only: on stairs it is wrong, and off
+by default.
+
+The place is an estimate of the filter's own, taken for a measurement: it makes the position look
+as well known as a foot stands still.  What a stance tells of a place the zero-velocity updates
+have said already, so it is used where a paper is to be followed and nowhere else.
 """
 
 from __future__ import annotations
@@ -44,7 +49,7 @@ class FlatFloor(Method):
     def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
         """Return the place the foot stood at, at the end of the stance."""
         stood, self._stood[stance.foot] = self._stood[stance.foot], None
-        if stood is None or not gait.remembers(stance.last):
+        if stood is None or not self.config.static_std or not gait.remembers(stance.last):
             return ()
         apply = partial(self._place, foot=stance.foot, place=stood)
         return (Request(stance.last, True, apply, EventKind.AID),)

@@ -24,7 +24,7 @@ from ..samples.series import FloatArray
 PRIOR_M = 0.15  # feet side by side, both sensors on the insteps
 PRIOR_STD_M = 0.04
 PLACEMENT_STD_M = 0.1  # how far off the feet may have been placed
-WANDER_STD_M = 0.02  # by which that wanders from one passing to the next
+WANDER_STD_M = 0.03  # by which that wanders from one passing to the next
 ACROSS_STD_M = 0.04  # from passing to passing, across and along the walk
 ALONG_STD_M = 0.1
 

@@ -42,7 +42,7 @@ class SpacingVectorConfig(Parameters):
         maximum=1.0,
     )
     spacing_std: float = parameter(
-        0.15,
+        0.08,
         "scatter of the spacing vector (0: hard projection)",
         unit="m",
         minimum=0.0,

@@ -17,6 +17,7 @@ from .layout import (
     A_SQUARES,
     A_STRIDE,
     A_SUM,
+    C_HEIGHT_DRIFT,
     C_WATCH,
     E_ATT,
     E_POS,
@@ -69,6 +70,7 @@ from .layout import (
     STATE,
     STOOD_S,
     VEL,
+    WALKED,
     Z_LEFT,
     ZUPT_INFO,
 )
@@ -102,6 +104,8 @@ def filter_epoch(w, n, epoch):
             w[o] = x
             w[o + 1] = y
             w[o + 2] = z
+    if flags % FLAG_STILL != 3:  # one foot swings
+        w[WALKED] += dt
     for foot in range(2):
         if (flags >> foot) & 1:
             zupt(w, foot, (still >> foot) & 1 == 1)  # eq. (12)
@@ -254,7 +258,13 @@ def squared_distance(w):
 
 
 def emit(w, n, out, k):
-    """Write the state to row ``k`` of ``out`` (N, OUT), laid out as in ``layout``."""
+    """Write the state to row ``k`` of ``out`` (N, OUT), laid out as in ``layout``.
+
+    What scale, misalignment and the rolling of the foot leave of the vertical velocity is alike in
+    every stride and in both feet, so the error of the height grows with the time walked and not
+    with its root.  It is no state: the variance that is told takes (drift t)^2 beside that of P.
+    """
+    drifted = w[C_HEIGHT_DRIFT] * w[WALKED] * w[WALKED]
     flags = n[N_FLAGS + n[N_EPOCH] % n[N_RING]]
     for foot in range(2):
         s = foot * FOOT
@@ -273,6 +283,7 @@ def emit(w, n, out, k):
                 out[k, o + O_COV_POS + m] = w[block + ROW * (E_POS + i) + E_POS + j]
                 out[k, o + O_COV_VEL + m] = w[block + ROW * (E_VEL + i) + E_VEL + j]
                 out[k, o + O_COV_ATT + m] = w[block + ROW * (E_ATT + i) + E_ATT + j]
+        out[k, o + O_COV_POS + 8] += drifted
         for i in range(ZUPT_INFO):
             out[k, o + O_ZUPT + i] = w[Z_LEFT + foot * ZUPT_INFO + i]
     if floor_moves(w):

@@ -17,10 +17,11 @@ GAMMA = 24  # previous velocity increment, m/s
 RATE = 27  # last bias-corrected angular rate, rad/s
 FORCE = 30  # last bias-corrected specific force, m/s^2
 FOLLOWS = 33  # 1 when the sample before was the one before in time, 0 at the start and after a gap
-FLOOR_VEL = 34  # of the left foot only: velocity of the floor under both feet, m/s
-FLOOR_STD = 37  # its standard deviation, horizontal; 0 with the next: the floor is at rest
-FLOOR_UP_STD = 38  # vertical, m/s
-FLOOR_S = 39  # time since it has moved, s
+WALKED = 34  # time walked since the height was observed, s; in the left foot's state only
+FLOOR_VEL = FOOT + 34  # in the right foot's state: velocity of the floor under both feet, m/s
+FLOOR_STD = FOOT + 37  # its standard deviation, horizontal; 0 with the next: the floor is at rest
+FLOOR_UP_STD = FOOT + 38  # vertical, m/s
+FLOOR_S = FOOT + 39  # time since it has moved, s
 
 ROW = 16  # covariance blocks are 15 rows of 15, padded to 16
 BLOCK = 15 * ROW
@@ -59,7 +60,10 @@ C_ZUPT_STILL_VAR = C_GRAVITY + 12  # (m/s)^2, once a stance has lasted
 C_BIAS_KNOWN_VAR = C_GRAVITY + 15  # (rad/s)^2, up to which a gyro bias counts as known
 C_ADAPTS = C_GRAVITY + 14  # 1 when the threshold follows the walk
 C_ZUPT_CONSIDERS = C_GRAVITY + 13  # 1 when a zero-velocity update takes heading and bias as known
-C_FOOT = C_GRAVITY + 16  # then per foot:
+C_HEIGHT_DRIFT = (
+    C_GRAVITY + 16
+)  # (m/s)^2, vertical velocity that zero-velocity updates let through
+C_FOOT = C_GRAVITY + 17  # then per foot:
 C_STRIDE = 8
 C_LEVER = 0  # sensor to pivot of the foot, body frame, m
 C_STILL_RATE = 3  # standstill angular rate, rad/s

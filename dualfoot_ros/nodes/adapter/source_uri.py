@@ -20,9 +20,10 @@ from ..ros.program import in_one_line
 RECORDED = "file"
 DEVICE = "device"
 BAGS = (".mcap", ".db3", ".bag")
+TABLES = (".csv", ".txt", ".tsv")
 CAPTURED = tuple(name for name in FORMATS if name != "dot")  # which comes over BLE only
 ALLOWED = (
-    "topic:///NAME or file://PATH (the folder of a bag, a .mcap, .db3 or .bag, an Xsens DOT .csv) "
+    "topic:///NAME or file://PATH (the folder of a bag, a .mcap, .db3 or .bag, a .csv) "
     "or a device, as in serial:///dev/ttyUSB0?baud=921600&format=mcu, udp://:8000?format=ximu3, "
     "tcp://192.168.1.5:7000?format=ximu3, ble://D4:22:CD:00:12:34"
 )
@@ -99,12 +100,13 @@ def load(source: Source, foot: str) -> ImuSeries:
         When the file cannot be read or has no samples of the foot.
     """
     path = Path(source.target).expanduser()
-    if path.suffix.lower() == ".csv":
-        return _from_csv(path)
+    if path.suffix.lower() in TABLES:
+        return _from_table(path, foot)
     if path.is_file() and path.suffix not in BAGS:
         raise RecordingError(
-            f"'{path}' is no bag ({', '.join(BAGS)} or a folder) and no .csv; for bytes captured "
-            f"from a device add ?format= with one of {', '.join(CAPTURED)}"
+            f"'{path}' is no bag ({', '.join(BAGS)} or a folder) and no table "
+            f"({', '.join(TABLES)}); for bytes captured from a device add ?format= with one of "
+            f"{', '.join(CAPTURED)}"
         )
     series = read_bag(path, topics=find_topics(path).topics).imu(foot)
     if series is None or not len(series):
@@ -112,11 +114,14 @@ def load(source: Source, foot: str) -> ImuSeries:
     return series
 
 
-def _from_csv(path: Path) -> ImuSeries:
-    """Return the one sensor in a csv; the importer wants a pair, so it gets the file twice."""
-    from ...recording.importers import ImportOptions, import_recording
+def _from_table(path: Path, foot: str) -> ImuSeries:
+    """Return the one sensor in a table, or that of ``foot`` where the table holds both."""
+    from ...recording.importers import read_sensors
 
-    series = import_recording(ImportOptions(left=path, right=path)).left
+    if not path.exists():
+        raise RecordingError(f"there is no file '{path}'")
+    sensors = read_sensors(path, foot=foot)
+    series = sensors.get(foot, sensors.get(""))
     if series is None or not len(series):
-        raise RecordingError(f"'{path}' has no samples")
+        raise RecordingError(f"'{path}' has no samples of the {foot} foot")
     return series

@@ -25,6 +25,7 @@ from dualfoot_ros.simulation import SensorConfig, WalkConfig
 from ..walks import perfect
 
 WALKS = 12
+LEAST = 0.3  # NEES on short walks: a zero-velocity update promises little of a single stride
 
 
 def test_the_band_holds_the_mean_of_chi_squares_in_95_of_100_cases():
@@ -107,22 +108,27 @@ def default_scores():
     return {score.name: score for score in scores}
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["left position", "right position", "relative position", "left horizontal",
-     "right horizontal", "relative horizontal", "left attitude", "right attitude",
-     "left heading", "right heading", "left velocity", "right velocity"],
-)  # fmt: skip
-def test_the_default_promises_no_more_than_it_keeps_on_simulated_walks(default_scores, name):
-    """The simulator is kinder than real walks: being cautious by a factor of 3 is no fault.
+@pytest.mark.parametrize("part", ["position", "horizontal", "height", "attitude", "heading"])
+@pytest.mark.parametrize("foot", ["left", "right"])
+def test_the_default_keeps_what_it_promises_on_simulated_walks(default_scores, foot, part):
+    score = default_scores[f"{foot} {part}"]
+    assert LEAST <= score.mean <= score.band[1], f"{score.name}: NEES {score.mean:.2f}"
 
-    The velocity is more cautious still: a zero-velocity update has a noise that is right for a
-    whole stance, whose errors are alike, and so too large for a single sample.
+
+@pytest.mark.parametrize("part", ["position", "horizontal", "height"])
+def test_the_feet_are_closer_together_than_is_promised(default_scores, part):
+    """On a floor without steps: what the constraint allows is for people who climb stairs."""
+    score = default_scores[f"relative {part}"]
+    assert 0.05 < score.mean < 1.0, f"{score.name}: NEES {score.mean:.2f}"
+
+
+@pytest.mark.parametrize("foot", ["left", "right"])
+def test_the_velocity_in_stance_is_better_than_is_promised(default_scores, foot):
+    """A zero-velocity update has a noise that is right for a whole stance.
+
+    Its errors are alike, and so the noise is too large for a single sample.
     """
-    score = default_scores[name]
-    assert score.mean < score.band[1], f"{name}: NEES {score.mean:.2f}"
-    least = 0.05 if name.endswith("velocity") else 0.1
-    assert score.mean > least, f"{name}: NEES {score.mean:.2f}"
+    assert 0.05 < default_scores[f"{foot} velocity"].mean < 1.0
 
 
 def test_the_noise_of_constraint_and_zero_velocity_is_not_below_their_innovations(default_scores):

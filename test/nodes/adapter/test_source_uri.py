@@ -5,6 +5,10 @@ from dualfoot_ros.drivers import SourceError
 from dualfoot_ros.nodes.adapter.source_uri import is_live, load, parse
 from dualfoot_ros.recording import RecordingError, read_bag
 
+VECTORS = ("acc_x_ms2", "acc_y_ms2", "acc_z_ms2", "gyr_x_dps", "gyr_y_dps", "gyr_z_dps")
+STILL = ("0.0", "0.0", "9.81", "0.0", "0.0", "0.0")
+SLIGHTLY_TURNED = ("0.0", "0.44", "9.80", "0.0", "0.0", "0.0")
+
 
 @pytest.mark.parametrize(
     ("uri", "kind", "target"),
@@ -89,3 +93,13 @@ def test_a_csv_of_the_sensors_app_is_a_source(dual_feet):
     path = sorted(dual_feet.rglob("*.csv"))[0]
     series = load(parse(f"file://{path}"), "left")
     assert len(series) > 100
+
+
+@pytest.mark.parametrize("foot", ["left", "right"])
+def test_a_table_with_both_feet_gives_the_samples_of_the_one_asked_for(tmp_path, foot):
+    names = [f"{side}_{name}" for side in ("left", "right") for name in VECTORS]
+    rows = [f"{k / 100:.2f}," + ",".join(STILL + SLIGHTLY_TURNED) for k in range(200)]
+    path = tmp_path / "both.csv"
+    path.write_text("\n".join(["time," + ",".join(names), *rows]) + "\n")
+    gravity = {"left": 9.81, "right": 9.80}
+    assert load(parse(f"file://{path}"), foot).specific_force[0, 2] == gravity[foot]

@@ -1,0 +1,39 @@
+"""The spacing learnt from the walk: turns show it, and its sigma is honest where none do."""
+
+import numpy as np
+import pytest
+
+from dualfoot_ros.core import EventKind, TrackerConfig
+from dualfoot_ros.core.constraints.learnt_spacing import PRIOR_M, PRIOR_STD_M, SpacingLearner
+from dualfoot_ros.core.results.payloads import Passing
+from dualfoot_ros.evaluation import track
+from dualfoot_ros.recording import Recording
+from dualfoot_ros.simulation import WalkConfig, simulate
+
+
+def learner_after(made):
+    """Return a learner that saw the passings of the default track of a simulated walk."""
+    run, learner = track(Recording(made.left, made.right), TrackerConfig()), SpacingLearner()
+    for event in run.of_kind(EventKind.CONSTRAINT):
+        if isinstance(event.payload, Passing):
+            before, after = (np.array(x[:2]) for x in (event.payload.before, event.payload.after))
+            learner.add(before, after, event.payload.heading)
+    return learner
+
+
+@pytest.mark.parametrize("route", ["rectangle", "figure_eight", "track"])
+def test_the_spacing_of_a_simulated_walk_is_within_two_and_a_half_sigma(route):
+    seeds = range(2 if route == "track" else 3)
+    for seed in seeds:
+        made = simulate(WalkConfig(route=route, rate=60.0), seed=seed)
+        found = learner_after(made)
+        assert abs(found.spacing_m - 0.148) < 2.5 * found.std_m, seed
+        assert found.std_m < PRIOR_STD_M
+
+
+def test_a_straight_line_says_nothing_of_it():
+    learner = SpacingLearner()
+    for _ in range(200):
+        learner.add(np.array([0.0, 0.35]), np.array([0.0, 0.35]), 0.0)
+    assert abs(learner.spacing_m - PRIOR_M) < PRIOR_STD_M
+    assert learner.std_m > 0.8 * PRIOR_STD_M

@@ -19,7 +19,7 @@ NUMBERS = [s for s in SPECS.values() if type(s.default) in (float, int)]
 PURE = {
     "from_stance", "to_stance", "threshold", "barometer_samples", "magnetic_size",
     "magnetic_stances", "kappa", "iterations", "share", "every", "alpha", "beta", "scaling",
-    "straight_strides",
+    "straight_strides", "landing_gate",
 }  # fmt: skip
 
 

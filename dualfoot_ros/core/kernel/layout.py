@@ -17,11 +17,11 @@ GAMMA = 24  # previous velocity increment, m/s
 RATE = 27  # last bias-corrected angular rate, rad/s
 FORCE = 30  # last bias-corrected specific force, m/s^2
 FOLLOWS = 33  # 1 when the sample before was the one before in time, 0 at the start and after a gap
-FLOOR_VEL = 34  # of the left foot only: velocity of the floor under both feet, m/s
-FLOOR_STD = 37  # its standard deviation, horizontal; 0 with the next: the floor is at rest
-FLOOR_UP_STD = 38  # vertical, m/s
-FLOOR_S = 39  # time since it has moved, s
-WALKED = FOOT + 34  # of the right foot only: time walked since the height was observed, s
+WALKED = 34  # time walked since the height was observed, s; in the left foot's state only
+FLOOR_VEL = FOOT + 34  # in the right foot's state: velocity of the floor under both feet, m/s
+FLOOR_STD = FOOT + 37  # its standard deviation, horizontal; 0 with the next: the floor is at rest
+FLOOR_UP_STD = FOOT + 38  # vertical, m/s
+FLOOR_S = FOOT + 39  # time since it has moved, s
 
 ROW = 16  # covariance blocks are 15 rows of 15, padded to 16
 BLOCK = 15 * ROW

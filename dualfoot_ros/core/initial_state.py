@@ -22,6 +22,7 @@ KINDS = {
     Increments.SAMPLED: lay.SAMPLED,
 }
 LEVEL_NOISE = 1e-3  # m/s^2, the least by which gravity in the levelled frame is off
+LONGEST_STANCE_S = 0.8  # of a stance that is not one of a stop
 MOVING_STD = 2.0  # m/s, velocity of a foot that may be swinging at the start
 
 
@@ -64,6 +65,7 @@ class InitialState:
             w[lay.D_FOOT + foot * lay.D_STRIDE + lay.D_THRESHOLD] = stance.threshold
         n[lay.N_SHORT_STANCE] = max(1, round(0.05 * space.rate_hz))
         n[lay.N_DECIMATE] = max(1, round(space.rate_hz / 60.0))
+        n[lay.N_STANDS] = max(1, round(LONGEST_STANCE_S * space.rate_hz))
         n[lay.N_WALKING] = round(2.0 * space.rate_hz)
         n[lay.N_SETTLED] = round(0.3 * space.rate_hz)
         n[lay.N_WINDOW] = min(space.ring, max(2, round(stance.window * space.rate_hz)))

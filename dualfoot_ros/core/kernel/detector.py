@@ -42,6 +42,7 @@ from .layout import (
     N_PHASE,
     N_RING,
     N_SHORT_STANCE,
+    N_STANDS,
     N_START,
     N_STRIDE,
     N_WALKING,
@@ -114,8 +115,15 @@ def bin_of(w, statistic):
 
 
 def follow(w, n, foot, statistic):
-    """Take a statistic into the history of a walking foot, and renew the threshold."""
+    """Take a statistic into the history of a walking foot, and renew the threshold.
+
+    A foot is quieter in a stop than in any stance of a walk, so what a stop adds to a stance is
+    left out: a threshold learnt from it would miss the stances after it.
+    """
     d = D_FOOT + foot * D_STRIDE
+    o = N_FOOT + foot * N_STRIDE
+    if n[o + N_PHASE] == STANCE and n[N_EPOCH] - n[o + N_START] >= n[N_STANDS]:
+        return
     if statistic > CERTAIN_SWING:
         w[d + D_ACTIVE] = n[N_WALKING]
     if w[d + D_ACTIVE] <= 0.0:

@@ -149,6 +149,7 @@ N_SHORT_STANCE = 8  # samples of a short stance, if it is clear
 N_DECIMATE = 9  # samples to one value of the statistic's history
 N_WALKING = 10  # samples for which a foot counts as walking after a swing
 N_SETTLED = 11  # samples without a turn after which a foot has come to rest on its floor
+N_STANDS = 12  # samples after which a stance is one of a stop
 N_FOOT = 16  # then per foot:
 N_STRIDE = 8
 N_PHASE = 0  # one of the phases below

@@ -7,8 +7,11 @@ the walk, s the spacing and a the error of where the feet were placed at the sta
 
     u = s n + a + noise,
 
-so as soon as n has turned, s and a part.  Heading drift makes a wander slowly.  A Kalman filter of
-(s, a) is all it takes; until the walk has turned it stays near its prior and says so.
+so as soon as n has turned, s and a part.  Heading drift makes a wander slowly.  Strides of one
+foot that are measured too long make it run along the walk, by d a passing: in circles one way
+round that looks like a spacing (0.1 % of the way is 0.06 m on laps of 400 m), the other way round
+it has the other sign.  A Kalman filter of (s, a, d) is all it takes; until the walk has turned,
+and where it turns one way only, it stays near its prior and says so.
 """
 
 from __future__ import annotations
@@ -24,6 +27,7 @@ from ..samples.series import FloatArray
 PRIOR_M = 0.15  # feet side by side, both sensors on the insteps
 PRIOR_STD_M = 0.04
 PLACEMENT_STD_M = 0.1  # how far off the feet may have been placed
+STRIDE_STD_M = 0.003  # by which one foot runs ahead of the other from passing to passing
 WANDER_STD_M = 0.03  # by which that wanders from one passing to the next
 ACROSS_STD_M = 0.04  # from passing to passing, across and along the walk
 ALONG_STD_M = 0.1
@@ -34,8 +38,8 @@ class SpacingLearner:
 
     def __init__(self) -> None:
         """Start from the prior."""
-        self._x = np.array([PRIOR_M, 0.0, 0.0])
-        self._p = np.diag([PRIOR_STD_M**2, PLACEMENT_STD_M**2, PLACEMENT_STD_M**2])
+        self._x = np.array([PRIOR_M, 0.0, 0.0, 0.0])
+        self._p = np.diag([PRIOR_STD_M, PLACEMENT_STD_M, PLACEMENT_STD_M, STRIDE_STD_M]) ** 2
         self._free: FloatArray | None = None  # the separation without constraints
         self._after = np.zeros(2)
 
@@ -55,10 +59,18 @@ class SpacingLearner:
         self._after = after.copy()
         c, s = math.cos(heading), math.sin(heading)
         x, y = float(self._free[0]), float(self._free[1])
+        self._go_on(c, s)
+        self._observe(np.array([1.0, -s, c, 0.0]), c * y - s * x, ACROSS_STD_M**2)
+        self._observe(np.array([0.0, c, s, 0.0]), c * x + s * y, ALONG_STD_M**2)
+
+    def _go_on(self, c: float, s: float) -> None:
+        """Let the placement run along the walk, whose direction is (c, s), and wander."""
+        step = np.eye(4)
+        step[1:3, 3] = c, s
+        self._x = step @ self._x
+        self._p = step @ self._p @ step.T
         self._p[1, 1] += WANDER_STD_M**2
         self._p[2, 2] += WANDER_STD_M**2
-        self._observe(np.array([1.0, -s, c]), c * y - s * x, ACROSS_STD_M**2)
-        self._observe(np.array([0.0, c, s]), c * x + s * y, ALONG_STD_M**2)
 
     def _observe(self, row: FloatArray, value: float, variance: float) -> None:
         cross = self._p @ row
@@ -69,9 +81,9 @@ class SpacingLearner:
     def restart(self) -> None:
         """Keep the spacing but forget the placement: the track was turned or moved."""
         self._free = None
-        self._x[1:] = 0.0
-        self._p[0, 1:] = self._p[1:, 0] = 0.0
-        self._p[1:, 1:] = PLACEMENT_STD_M**2 * np.eye(2)
+        self._x[1:3] = 0.0
+        self._p[1:3, :] = self._p[:, 1:3] = 0.0
+        self._p[1, 1] = self._p[2, 2] = PLACEMENT_STD_M**2
 
 
 class Spacing:

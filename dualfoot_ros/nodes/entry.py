@@ -29,6 +29,11 @@ def imu_adapter() -> int:
     return _run("imu_adapter")
 
 
+def live_page() -> int:
+    """Run the node ``live_page``."""
+    return _run("live_page")
+
+
 def replay() -> int:
     """Run the node ``replay``."""
     return _run("replay")

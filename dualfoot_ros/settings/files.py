@@ -6,11 +6,12 @@ import re
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
-
-import yaml
+from typing import TYPE_CHECKING, Any
 
 from ..core import ConfigError, ParameterSpec, nested
+
+if TYPE_CHECKING:
+    from yaml import SafeLoader
 
 WIDTH = 98
 EXPONENT_ONLY = re.compile(r"^[-+]?[0-9]+[eE][-+]?[0-9]+$")
@@ -24,6 +25,8 @@ def read_parameters(path: Path) -> dict[str, Any]:
     ConfigError
         When the file cannot be read as YAML or holds no ``ros__parameters``.
     """
+    import yaml
+
     try:
         document = yaml.load(path.read_text(encoding="utf-8"), Loader=_loader())  # noqa: S506  (a SafeLoader)
     except (yaml.YAMLError, UnicodeDecodeError) as error:
@@ -97,8 +100,9 @@ def _sections(document: Any) -> Iterator[Mapping[str, Any]]:
             yield from _sections(value)
 
 
-def _loader() -> type[yaml.SafeLoader]:
+def _loader() -> type[SafeLoader]:
     """Return a loader that reads 1e-3 as a number, as the parser of ROS does."""
+    import yaml
 
     class Loader(yaml.SafeLoader):
         """SafeLoader with YAML 1.2's idea of a number."""

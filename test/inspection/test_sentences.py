@@ -167,6 +167,7 @@ def test_these_recordings_show_all_but_a_few_kinds(plain):
         "swapped",
         "restless_start",
         "rate_used",
+        "carried",
         *OF_WALKS,
     }
     assert seen | rare == kinds_made_in("inspection")

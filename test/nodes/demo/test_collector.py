@@ -6,10 +6,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from nav_msgs.msg import Odometry
+from rclpy.serialization import deserialize_message
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core import EvaluationError
 from dualfoot_ros.nodes.demo.collector import CollectorNode, foot_trajectory
+from dualfoot_ros.nodes.ros.cdr_odometry import OdometryBytes
 from dualfoot_ros.nodes.ros.messages import fill_foot, set_time
 
 numbers = st.floats(-10.0, 10.0)
@@ -38,9 +40,10 @@ class Estimate:
     arrays(np.float64, (6, 6), elements=numbers),
 )
 def test_an_estimate_that_was_published_is_read_back(position, velocity, euler, factor):
-    message, estimate = Odometry(), Estimate(position, velocity, euler, factor)
+    message, estimate = OdometryBytes("odom", "foot"), Estimate(position, velocity, euler, factor)
     fill_foot(message, 7, estimate, 1e-4)
-    track = foot_trajectory(np.array([7]), [message])
+    read = deserialize_message(message.data(), Odometry)
+    track = foot_trajectory(np.array([7]), [read])
     np.testing.assert_array_equal(track.position[0], position)
     np.testing.assert_array_equal(track.quaternion[0], estimate.quaternion)
     pose = estimate.pose_covariance()

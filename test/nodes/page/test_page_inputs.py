@@ -7,7 +7,9 @@ import urllib.request
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry, Path
+from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import BatteryState
 
 from dualfoot_ros.core import (
@@ -29,7 +31,7 @@ from dualfoot_ros.nodes.results.outputs import Outputs
 from dualfoot_ros.nodes.results.person_outputs import trust_message
 from dualfoot_ros.nodes.results.step_outputs import step_message
 from dualfoot_ros.nodes.ros import qos
-from dualfoot_ros.nodes.ros.messages import new_odometry, pose_stamped, set_pose, set_time
+from dualfoot_ros.nodes.ros.messages import set_pose, set_time
 from dualfoot_ros.recording import read_bag
 from dualfoot_ros.settings import FrameConfig, PathConfig, PersonConfig
 from dualfoot_ros.timing import align
@@ -40,7 +42,8 @@ S = 1_000_000_000
 
 
 def pose(stamp_s, x, y=0.0, z=0.0, yaw=0.0, child="base_footprint"):
-    message = new_odometry("odom", child)
+    message = Odometry(child_frame_id=child)
+    message.header.frame_id = "odom"
     set_time(message.header.stamp, round(stamp_s * S))
     set_pose(message.pose.pose, np.array([x, y, z]), yaw_quaternion(yaw))
     message.pose.covariance[0], message.pose.covariance[7] = 0.04, 0.01
@@ -53,7 +56,10 @@ def path(stamp_s, places):
     set_time(message.header.stamp, round(stamp_s * S))
     for t, x in [*places, (stamp_s, 0.0)]:
         at = round(t * S), np.array([x, 0.0, 0.0]), yaw_quaternion(0.0)
-        message.poses.append(pose_stamped("odom", *at))
+        made = PoseStamped()
+        set_time(made.header.stamp, at[0])
+        set_pose(made.pose, *at[1:])
+        message.poses.append(made)
     return message
 
 
@@ -231,13 +237,13 @@ def test_the_page_has_the_walk_that_fusion_has_after_its_headings(bench, state, 
         if update.left is not None and number % 5 == 0:  # as fast as the page takes them
             bench.until(lambda s=update.stamp_ns: inputs._newest_ns >= s, "odometry")
     shown = np.array(places(state, PERSON))[:, 1:]
-    known = outputs.person._path.message(outputs.person._person.add(update)).poses
-    for pose in known:
+    known = outputs.person._path.message(outputs.person._person.add(update))
+    for pose in deserialize_message(known, Path).poses:
         place = pose.pose.position
         assert np.hypot(*(shown - [place.x, place.y]).T).min() < 0.25
     for foot in ("left", "right"):
         prints = np.array(places(state, foot))[:, 1:]
-        path = outputs._paths[foot].message().poses
+        path = deserialize_message(outputs._paths[foot].message(), Path).poses
         stood = np.array([[p.pose.position.x, p.pose.position.y] for p in path])
         apart = np.linalg.norm(prints[:, None] - stood[None], axis=2).min(axis=1)
         assert len(prints) > 3 and apart.max() < 0.05

@@ -133,8 +133,17 @@ def in_one_line(error: Exception) -> str:
     return SOURCE_LINE.sub("", " ".join(str(error).split()))
 
 
+class _Executor(SingleThreadedExecutor):
+    """One that goes without a word when a signal has ended the context before it is made.
+
+    rclpy's destructor reads what its constructor had no time to set, and Python prints that.
+    """
+
+    _sigint_gc = None
+
+
 def _spin(graph: Graph) -> None:
-    executor = SingleThreadedExecutor()
+    executor = _Executor()
     try:
         for node in graph.nodes:
             executor.add_node(node)

@@ -24,7 +24,7 @@ def errors_ms(found, truth):
 
 @given(st.integers(0, 10**6), st.sampled_from([60.0, 100.0, 200.0]), st.floats(0.0, 0.006))
 def test_delays_of_some_milliseconds_go_and_the_rate_is_that_of_the_device(seed, rate, scale_s):
-    truth = true_times(rate, 2000, skew_ppm=80.0)
+    truth = true_times(rate, 1200, skew_ppm=80.0)
     late = np.random.default_rng(seed).exponential(scale_s * 1e9, len(truth)).astype(np.int64)
     even = even_stamps("left", truth + late)
     assert even.missing == 0

@@ -32,6 +32,7 @@ class StepFacts:
     Attributes
     ----------
     strides : number of strides of LEAST_STRIDE_M or more
+    paced : the same with the half strides of a start and a stop as what they are of the median one
     median_stride_m, longest_stride_m : m, of these, horizontal; nan without any
     longest_at_s : s, when the longest one ends, from the start of the track
     missed : stances that the foot must have had while the other one stood repeatedly
@@ -43,6 +44,7 @@ class StepFacts:
     """
 
     strides: int
+    paced: float
     median_stride_m: float
     longest_stride_m: float
     longest_at_s: float
@@ -98,11 +100,13 @@ def _steps(foot: FootTrajectory, other: FootTrajectory) -> StepFacts:
     lengths = np.linalg.norm(np.diff(places, axis=0), axis=1)
     strides = lengths >= LEAST_STRIDE_M
     longest = int(np.argmax(lengths)) if strides.any() else -1
+    median_m = float(np.median(lengths[strides])) if strides.any() else float("nan")
     swings = _swings_s(foot, bounds)
     gap = int(np.argmax(swings)) if len(swings) else -1
     return StepFacts(
         strides=int(strides.sum()),
-        median_stride_m=float(np.median(lengths[strides])) if strides.any() else float("nan"),
+        paced=float(np.minimum(lengths[strides] / median_m, 1.0).sum()),
+        median_stride_m=median_m,
         longest_stride_m=float(lengths[longest]) if longest >= 0 else float("nan"),
         longest_at_s=(
             _seconds(foot, int(bounds[longest + 1, 0])) if longest >= 0 else float("nan")

@@ -25,13 +25,18 @@ REMEDY = (
 
 
 def find_missed_stances(facts: WalkFacts) -> Iterator[Finding]:
-    """Yield a finding for each foot that has fewer stances than the other one makes it have."""
+    """Yield a finding for each foot that has fewer stances than the other one makes it have.
+
+    Who starts and stops with the same foot makes two half strides with it each time, and one
+    stride less with the other: half strides count as halves.
+    """
     strides = {foot: steps.strides for foot, steps in facts.feet.items()}
-    fewer = min(strides, key=lambda foot: strides[foot])
+    paced = {foot: steps.paced for foot, steps in facts.feet.items()}
+    fewer = min(paced, key=lambda foot: paced[foot])
     for foot, steps in facts.feet.items():
-        short = max(strides.values()) - steps.strides if foot == fewer else 0
-        unequal = short > max(UNEQUAL, UNEQUAL_SHARE * max(strides.values()))
-        missed = max(steps.missed, short if unequal else 0)
+        short = max(paced.values()) - steps.paced if foot == fewer else 0.0
+        unequal = short > max(UNEQUAL, UNEQUAL_SHARE * max(paced.values()))
+        missed = max(steps.missed, round(short) if unequal else 0)
         if missed >= LEAST_MISSED:
             yield Finding(
                 FindingKind.MISSED_STANCES,

@@ -22,11 +22,7 @@ def write_text(path: Path, text: str) -> None:
     OSError
         When it cannot be written; names ``path``.
     """
-    check_file(path, overwrite=True)
-    with _scratch_folder(path) as scratch, _naming(path):
-        written = scratch / path.name
-        written.write_text(text, encoding="utf-8")
-        written.replace(path)
+    write_bytes(path, text.encode())
 
 
 def write_bytes(path: Path, data: bytes) -> None:

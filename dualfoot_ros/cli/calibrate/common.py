@@ -95,6 +95,21 @@ def existing(path: Path | None) -> Calibration:
     return Calibration.load(path)
 
 
+def check_parameters(args: argparse.Namespace) -> None:
+    """Refuse a parameter file that would replace something else."""
+    from ...calibration import CalibrationError
+    from ...recording import check_file
+
+    if args.parameters is None:
+        return
+    if args.output is not None and args.parameters.resolve() == args.output.resolve():
+        raise CalibrationError(
+            f"-o and --parameters both name '{args.parameters}'; a calibration and parameters of "
+            "the filter are two files, so choose another name for one of them"
+        )
+    check_file(args.parameters, overwrite=args.overwrite)
+
+
 def figure_path(output: Path, subject: str, sensors: Sequence[str] = ()) -> Path:
     """Return where the figure beside ``output`` goes; one foot alone has its name in it."""
     one = len(sensors) == 1 and sensors[0] in FEET and sensors[0] not in output.stem

@@ -47,7 +47,7 @@ def run(args: argparse.Namespace) -> int:
     """Fit, write, print; return the exit code."""
     from ...calibration import fit_gyro
 
-    _check_outputs(args)
+    common.check_parameters(args)
     calibration = common.existing(args.output)
     loaded = common.load(args)
     fits = {name: fit_gyro(sources) for name, sources in loaded.items()}
@@ -70,21 +70,6 @@ def run(args: argparse.Namespace) -> int:
         for sentence in fit.unseen():
             common.warn(f"{name}: {sentence}")
     return 0
-
-
-def _check_outputs(args: argparse.Namespace) -> None:
-    """Refuse a parameter file that would replace something else."""
-    from ...calibration import CalibrationError
-    from ...recording import check_file
-
-    if args.parameters is None:
-        return
-    if args.output is not None and args.parameters.resolve() == args.output.resolve():
-        raise CalibrationError(
-            f"-o and --parameters both name '{args.parameters}'; a calibration and parameters of "
-            "the filter are two files, so choose another name for one of them"
-        )
-    check_file(args.parameters, overwrite=args.overwrite)
 
 
 def _noise(fits: dict[str, GyroFit]) -> dict[str, float]:

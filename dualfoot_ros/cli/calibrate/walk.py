@@ -79,7 +79,7 @@ def run(args: argparse.Namespace) -> int:
     misalignment = _misalignment(args, MISALIGNMENT)
     config = tracker_config(args)
     existing = common.existing(args.output)
-    _check_parameters(args)
+    common.check_parameters(args)
     recordings = [(Path(path).name, load_usable(path, args)) for path in args.bags]
     given = _given(existing)
     with progress("calibrating") as update:
@@ -113,20 +113,6 @@ def _given(existing: Calibration) -> dict[str, SensorCalibration]:
     from ...core import FEET
 
     return {foot: sensor for foot in FEET if (sensor := existing.sensors.get(foot)) is not None}
-
-
-def _check_parameters(args: argparse.Namespace) -> None:
-    from ...calibration import CalibrationError
-    from ...recording import check_file
-
-    if args.parameters is None:
-        return
-    if args.output is not None and args.parameters.resolve() == args.output.resolve():
-        raise CalibrationError(
-            f"-o and --parameters both name '{args.parameters}'; a calibration and parameters of "
-            "the filter are two files, so choose another name for one of them"
-        )
-    check_file(args.parameters, overwrite=args.overwrite)
 
 
 def _write(

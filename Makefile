@@ -9,6 +9,8 @@ OUTPUT := demo_output
 WORKERS := 2
 
 .DEFAULT_GOAL := help
+# Demo and tests start hundreds of processes; without byte code on disk each compiles the package.
+unexport PYTHONDONTWRITEBYTECODE
 .PHONY: help demo test pytest lint format types config docs dist golden bags bench clean
 
 help: ## show the targets

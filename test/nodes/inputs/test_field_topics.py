@@ -28,15 +28,16 @@ from ..samples import STANDING, imu, status_values
 
 ON = {"aids.magnetic_heading": True, "engine": "compiled", "reports.period": 0.1}
 FEET = ("left", "right")
+COUNT = 1080  # samples of each foot
 
 
 @pytest.fixture(scope="module")
 def felt(tmp_path_factory):
-    """Return a bag of the first half minute of a walk with a magnetometer on each foot."""
-    walk = WalkConfig(route="L", rate=60.0, standing=4.0)
+    """Return a bag of the first 18 s of a walk with a magnetometer on each foot."""
+    walk = WalkConfig(route="L", rate=60.0, standing=2.5)
     made = simulate(walk, seed=1, magnetometer=MagnetometerConfig())
     path = tmp_path_factory.mktemp("felt") / "walk"
-    return write_bag(path, Recording(made.left[:1800], made.right[:1800]))
+    return write_bag(path, Recording(made.left[:COUNT], made.right[:COUNT]))
 
 
 def vector(message):
@@ -226,7 +227,7 @@ def test_bringup_records_the_field_that_fusion_uses(program, felt, tmp_path):
     target = tmp_path / "result"
     running = program(
         "bringup", "--ros-args", "-p", f"bag:={felt}", "-p", f"record:={target}",
-        "-p", "play.rate:=8.0", "-p", "engine:=compiled", "-p", "aids.magnetic_heading:=true",
+        "-p", "play.rate:=20.0", "-p", "engine:=compiled", "-p", "aids.magnetic_heading:=true",
         "-p", "input.depth:=10000",
     )  # fmt: skip
     assert running.code() == 0, running.output

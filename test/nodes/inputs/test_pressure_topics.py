@@ -1,6 +1,7 @@
 """Air pressure through the nodes: live is offline, what is missing is said, bad is counted."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -21,25 +22,33 @@ from dualfoot_ros.simulation import BarometerConfig, WalkConfig, simulate
 from ..samples import status_values
 
 ON = {"aids.barometer": True, "engine": "compiled", "reports.period": 0.1}
+COUNT = 1080  # samples of each foot
 QUICK = InputConfig(silence=0.3)
 
 
+@cache
 def climb(folder, worn):
-    """Return a bag of the first half minute of a walk on stairs with barometers."""
-    walk = WalkConfig(route="stairs", rate=60.0, standing=4.0)
+    """Return a bag of the first 18 s of a walk on stairs with barometers."""
+    walk = WalkConfig(route="stairs", rate=60.0, standing=2.5)
     made = simulate(walk, seed=1, barometer=BarometerConfig(worn=worn))
-    end_ns = made.left.stamp_ns[1800]
+    end_ns = made.left.stamp_ns[COUNT]
     pressure = {}
     for key, each in made.pressure.items():
         count = np.searchsorted(each.stamp_ns, end_ns)
         pressure[key] = PressureSeries(each.stamp_ns[:count], each.pressure[:count])
-    cut = Recording(made.left[:1800], made.right[:1800], pressure=pressure)
+    cut = Recording(made.left[:COUNT], made.right[:COUNT], pressure=pressure)
     return write_bag(folder / worn, cut)
 
 
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Return where the bags are."""
+    return tmp_path_factory.mktemp("climbs")
+
+
 @pytest.mark.parametrize("worn", ["feet", "body"])
-def test_a_climb_through_the_nodes_is_the_offline_run_to_the_bit(context, tmp_path, worn):
-    bag = climb(tmp_path, worn)
+def test_a_climb_through_the_nodes_is_the_offline_run_to_the_bit(context, folder, worn):
+    bag = climb(folder, worn)
     configs = {
         name: TrackerConfig.from_mapping({"method": "step_length", "aids.barometer": on})
         for name, on in (("on", True), ("off", False))
@@ -53,15 +62,15 @@ def test_a_climb_through_the_nodes_is_the_offline_run_to_the_bit(context, tmp_pa
         assert [(e.stamp_ns, e.detail["height"]) for e in aids] == [
             (e.stamp_ns, e.detail["height"]) for e in batch.of_kind(EventKind.AID)
         ]
-        assert (len(aids) > 30) == (name == "on")
+        assert (len(aids) > 20) == (name == "on")
     assert live["on"].counters["pressures"] == sum(map(len, recording.pressure.values()))
     assert "pressures" not in live["off"].counters
     heights = (live[name].trajectory.left.position[-1, 2] for name in configs)
     assert abs(np.subtract(*heights)) > 0.01
 
 
-def test_replay_publishes_the_pressure_of_a_bag_to_the_bit(bench, tmp_path):
-    bag = climb(tmp_path, "feet")
+def test_replay_publishes_the_pressure_of_a_bag_to_the_bit(bench, folder):
+    bag = climb(folder, "feet")
     probe, got = bench.plain(), {"left": [], "right": []}
     for foot, found in got.items():
         probe.create_subscription(
@@ -145,11 +154,11 @@ def test_without_the_aid_nobody_listens_to_pressure(bench):
     assert station.fusion.count_subscribers("/pressure") == 0
 
 
-def test_bringup_records_the_pressure_that_fusion_uses(program, tmp_path):
-    bag, target = climb(tmp_path, "body"), tmp_path / "result"
+def test_bringup_records_the_pressure_that_fusion_uses(program, folder, tmp_path):
+    bag, target = climb(folder, "body"), tmp_path / "result"
     running = program(
         "bringup", "--ros-args", "-p", f"bag:={bag}", "-p", f"record:={target}",
-        "-p", "play.rate:=8.0", "-p", "engine:=compiled", "-p", "aids.barometer:=true",
+        "-p", "play.rate:=20.0", "-p", "engine:=compiled", "-p", "aids.barometer:=true",
         "-p", "input.depth:=10000",
     )  # fmt: skip
     assert running.code() == 0, running.output

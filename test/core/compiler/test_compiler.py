@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from processes import PATIENCE_S
 
 from dualfoot_ros.core import DualFootTracker
 from dualfoot_ros.core.compiler import cache_directory
@@ -71,7 +72,7 @@ def tracked(recording, before: str, cache: Path) -> list[str]:
         env=environment,
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=PATIENCE_S,
         check=False,
     )
     assert done.returncode == 0, done.stderr
@@ -97,8 +98,12 @@ def test_without_numba_everything_runs_interpreted_with_the_same_bits(recording,
     assert engines_and_digest == ["interpreted", "interpreted", "interpreted", recording[1]]
 
 
-def test_where_no_cache_can_be_written_the_kernel_is_compiled_all_the_same(recording, tmp_path):
+def test_where_no_cache_can_be_written_the_kernel_is_compiled_all_the_same(
+    recording, tmp_path, monkeypatch
+):
+    """... and with the same bits when nothing is optimized, which is quicker here."""
     pytest.importorskip("numba")
+    monkeypatch.setenv("NUMBA_OPT", "0")
     blocked = tmp_path / "a file"
     blocked.write_text("no directory can be made below this")
     at_once, _, last, digest = tracked(recording, "", blocked / "cache")

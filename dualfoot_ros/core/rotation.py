@@ -64,7 +64,7 @@ def quaternion_matrix(quaternion: FloatArray) -> FloatArray:
 
 def skew(vector: FloatArray) -> FloatArray:
     """Return the matrix (3, 3) of the cross product with ``vector`` (3,) from the left."""
-    x, y, z = vector
+    x, y, z = vector.tolist()
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 

@@ -30,6 +30,7 @@ M, LEVER = slice(12, 18), slice(18, 20)
 SEEN = slice(12, 20)  # what a walk tells about: m and the pivot
 STATES = 20
 LEVEL = np.diag([1.0, 1.0, 0.0])
+IDENTITY = np.eye(3)
 ALIKE_S = 0.5  # over which the errors of a standing foot are alike
 OUTLIER = 4.0  # NIS per degree of freedom of a stance's first sample that is none
 SMALL = 1e-12  # rad^2, of a rotation whose series is exact
@@ -172,6 +173,8 @@ class _Pass:
         longest = max(1, round(ALIKE_S / float(np.median(self._dt))))
         for first, end in stance_bounds(walk.stance):
             self._samples[first:end] = min(end - first, longest)
+        self._transition = np.eye(STATES)
+        self._added = np.repeat([noise.gyro**2, noise.accelerometer**2], 3)
         self._r, self._v = walk.attitude.copy(), np.zeros(3)
         self._x, self._p = np.zeros(STATES), noise.start(walk.bias_std)
         self._in_stance = self._left_out = False
@@ -188,8 +191,8 @@ class _Pass:
         for k in range(len(self._walk)):
             self._propagate(k)
             if bridged[k]:
-                self._p[VEL, VEL] += np.eye(3)
-                self._p[PHI, PHI] += 0.01 * np.eye(3)
+                self._p[VEL, VEL] += IDENTITY
+                self._p[PHI, PHI] += 0.01 * IDENTITY
             if self._walk.stance[k]:
                 self._stand(k)
             else:
@@ -200,7 +203,7 @@ class _Pass:
         dt, r, x = self._dt[k], self._r, self._x
         turned, pushed = r @ self._columns[k] * dt, r * dt
         push = r @ (self._push[k] - x[BA] * dt)
-        f = np.eye(STATES)
+        f = self._transition
         f[VEL, PHI] = skew(push)
         f[VEL, BA] = pushed
         f[PHI, BG] = -pushed
@@ -208,12 +211,9 @@ class _Pass:
         self._v += push
         self._v[2] -= self._walk.gravity * dt
         more = (self._columns[k] @ x[M] - x[BG]) * dt
-        self._r = r @ self._turn[k] @ (np.eye(3) + skew(more))
+        self._r = r @ self._turn[k] @ (IDENTITY + skew(more))
         self._p = f @ self._p @ f.T
-        noise = np.arange(6)
-        self._p[noise, noise] += dt * np.repeat(
-            [self._noise.gyro**2, self._noise.accelerometer**2], 3
-        )
+        self._p.reshape(-1)[: 6 * STATES : STATES + 1] += dt * self._added
 
     def _stand(self, k: int) -> None:
         """Update with a sample of a stance: the pivot of the foot does not move."""
@@ -221,15 +221,16 @@ class _Pass:
         turn = r @ (self._rate[k] + self._columns[k] @ x[M] - x[BG])
         level = LEVEL @ turn
         arm = r @ (self._pivot_axes @ (self._point[6:] + x[LEVER]))
-        on_arm = skew(arm) @ LEVEL
+        level_x, arm_x = skew(level), skew(arm)
+        on_arm = arm_x @ LEVEL
         h = np.zeros((3, STATES))
-        h[:, VEL] = np.eye(3)
-        h[:, PHI] = skew(level) @ skew(arm) - on_arm @ skew(turn)
+        h[:, VEL] = IDENTITY
+        h[:, PHI] = level_x @ arm_x - on_arm @ skew(turn)
         h[:, BG] = -on_arm @ r
         h[:, M] = on_arm @ r @ self._columns[k]
-        h[:, LEVER] = -skew(level) @ r @ self._pivot_axes
+        h[:, LEVER] = -level_x @ r @ self._pivot_axes
         variance = self._noise.velocity**2 + self._noise.velocity_per_rate**2 * (turn @ turn)
-        self._update(h, self._v + np.cross(level, arm), variance, self._samples[k])
+        self._update(h, self._v + level_x @ arm, variance, self._samples[k])
 
     def _update(
         self, h: FloatArray, innovation: FloatArray, variance: float, samples: float
@@ -237,7 +238,7 @@ class _Pass:
         """Update, unless the stance is none; two in a row are never left out."""
         cross = self._p @ h.T
         if not self._in_stance:
-            spread = h @ cross + variance * np.eye(3)
+            spread = h @ cross + variance * IDENTITY
             nis = float(innovation @ np.linalg.solve(spread, innovation))
             self._in_stance = True
             self._left_out = nis > OUTLIER * len(innovation) and not self._left_out
@@ -245,7 +246,7 @@ class _Pass:
                 self._nis.append(nis / len(innovation))
         if self._left_out:
             return
-        gain = np.linalg.solve(h @ cross + variance * samples * np.eye(3), cross.T).T
+        gain = np.linalg.solve(h @ cross + variance * samples * IDENTITY, cross.T).T
         p = self._p - gain @ cross.T
         self._p = 0.5 * (p + p.T)
         change = gain @ innovation

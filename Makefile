@@ -33,7 +33,7 @@ demo: $(VENV)/.kernel ## replay bags/demo through the real nodes and compare wit
 test: lint types pytest ## run ruff, mypy and every test
 
 pytest: $(VENV)/.kernel ## run the tests only
-	@$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n $(WORKERS) --dist loadfile
 
 lint: $(VENV)/.installed ## check style and format with ruff
 	@$(BIN)/ruff check .

@@ -85,7 +85,8 @@ class Session:
 
     def runs(self) -> bool:
         """Tell whether the first process has not ended; it is not reaped."""
-        return self._process.returncode is None and self.pid in _alive(self.pid)
+        fields = _status(self.pid)
+        return self._process.returncode is None and bool(fields) and fields[0] != b"Z"
 
     def others(self) -> list[int]:
         """Return the processes that were started, without those that keep the books."""

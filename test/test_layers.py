@@ -4,6 +4,7 @@ import ast
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 
@@ -53,9 +54,20 @@ COMPILER = "compiler"  # the room of core where compiled code is made and kept
 PRESETS = {("presets.py", "ament_index_python")}
 
 
-def imported(path: Path, *, top_level_only: bool = False) -> Iterator[str]:
-    """Yield the absolute name of everything ``path`` imports."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+@cache
+def parsed(path: Path) -> ast.Module:
+    """Return the module in ``path`` as a tree."""
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
+def imported(path: Path, *, top_level_only: bool = False) -> tuple[str, ...]:
+    """Return the absolute name of everything ``path`` imports."""
+    return tuple(_imports(path, top_level_only))
+
+
+def _imports(path: Path, top_level_only: bool) -> Iterator[str]:
+    tree = parsed(path)
     here = ["dualfoot_ros", *path.relative_to(PACKAGE).with_suffix("").parts]
     nodes: Iterable[ast.AST] = at_import_time(tree) if top_level_only else ast.walk(tree)
     for node in nodes:
@@ -112,7 +124,7 @@ def breaches(modules: Iterable[Path], forbidden: Callable[[Path, str], bool], **
 
 def calls(path: Path) -> set[str]:
     """Return the names of the plain functions that are called anywhere in ``path``."""
-    nodes = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+    nodes = ast.walk(parsed(path))
     found = (node.func for node in nodes if isinstance(node, ast.Call))
     return {function.id for function in found if isinstance(function, ast.Name)}
 
@@ -123,9 +135,15 @@ def module_name(path: Path) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
+@cache
+def by_name() -> dict[str, Path]:
+    """Return the modules of the package by their dotted names."""
+    return {module_name(path): path for path in MODULES}
+
+
 def imported_modules(path: Path) -> set[str]:
     """Return the modules that ``path`` imports from, looking through faces."""
-    modules = {module_name(p): p for p in MODULES}
+    modules = by_name()
 
     def home(name: str) -> str | None:
         """Return the module that defines ``name``, through any number of faces."""
@@ -187,8 +205,8 @@ def test_a_module_imports_only_from_the_layers_below():
 
 def reached(path: Path) -> Iterator[str]:
     """Yield the modules that ``path`` imports, or imports from; a name on a face is the face's."""
-    modules = {module_name(p): p for p in MODULES}
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+    modules = by_name()
+    tree = parsed(path)
     here = ["dualfoot_ros", *path.relative_to(PACKAGE).with_suffix("").parts]
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
@@ -200,9 +218,10 @@ def reached(path: Path) -> Iterator[str]:
             yield from (f"{base}.{a.name}" for a in node.names if a.name not in shown)
 
 
+@cache
 def names_of(face: Path) -> set[str]:
     """Return the names that a face lists in ``__all__``."""
-    for node in ast.parse(face.read_text(encoding="utf-8")).body:
+    for node in parsed(face).body:
         if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
             return set(ast.literal_eval(node.value))
     return set()

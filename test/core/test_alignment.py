@@ -24,7 +24,16 @@ from dualfoot_ros.core.alignment import (
 )
 from dualfoot_ros.core.config_groups import AlignmentConfig
 
-from .harness import GRAVITY, Pairs, cross_matrix, open_session, simulated, standing_samples, walk
+from .harness import (
+    GRAVITY,
+    Pairs,
+    cross_matrix,
+    open_session,
+    quick_engine,
+    simulated,
+    standing_samples,
+    walk,
+)
 
 RATE = 100.0
 LEVEL = np.array([0.0, 0.0, GRAVITY])
@@ -107,7 +116,7 @@ def test_motion_during_the_alignment_starts_it_again_and_is_counted():
     pairs = standing_samples(round(8.0 * RATE), RATE)
     moved = slice(round(1.6 * RATE), round(2.0 * RATE))
     pairs.values[moved, 5] += np.linspace(0.0, 2.0, moved.stop - moved.start)
-    tracker = DualFootTracker(engine="interpreted")
+    tracker = DualFootTracker(engine=quick_engine().name)
     phases, complaints = [], set()
     for pair in pairs:
         phases.append(tracker.add(pair).phase)
@@ -312,7 +321,7 @@ def test_a_recording_too_short_to_align_is_refused_with_what_is_needed():
 
 
 def test_the_alignment_is_announced_with_what_it_found():
-    tracker = DualFootTracker(engine="interpreted")
+    tracker = DualFootTracker(engine=quick_engine().name)
     events = [e for pair in tilted(0.1, 0.2) for e in tracker.add(pair).events]
     aligned = [e for e in events if e.kind is EventKind.ALIGNED]
     assert len(aligned) == 1

@@ -62,7 +62,7 @@ def test_the_covariance_of_a_standing_foot_covers_its_drift():
 
 def test_a_tracker_that_stands_keeps_refining_and_says_so():
     pairs = standing(1, 8.0)
-    tracker = DualFootTracker(engine="interpreted")
+    tracker = DualFootTracker(engine=quick_engine().name)
     phases = [tracker.add(pair).phase for pair in pairs]
     assert phases[-1] == "standing"
     assert tracker.counters["alignment_restarts"] == 0

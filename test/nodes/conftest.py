@@ -10,7 +10,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TextIO
@@ -98,17 +98,37 @@ def patient_demo() -> Iterator[None]:
         yield
 
 
-@pytest.fixture
-def context() -> Iterator:
-    """Return an initialised context of rclpy."""
+@contextmanager
+def new_context() -> Iterator:
+    """Give an initialised context of rclpy."""
     import rclpy
 
     made = rclpy.Context()
     rclpy.init(args=[], context=made)
     # An --log-level that another test has given holds for the whole process.
     rclpy.logging.set_logger_level("", rclpy.logging.LoggingSeverity.INFO)
-    yield made
-    rclpy.try_shutdown(context=made)
+    try:
+        yield made
+    finally:
+        rclpy.try_shutdown(context=made)
+
+
+@contextmanager
+def new_bench() -> Iterator[Bench]:
+    """Give nodes on an executor, and end them."""
+    with new_context() as context:
+        made = Bench(context)
+        try:
+            yield made
+        finally:
+            made.close()
+
+
+@pytest.fixture
+def context() -> Iterator:
+    """Return an initialised context of rclpy."""
+    with new_context() as made:
+        yield made
 
 
 @pytest.fixture
@@ -117,6 +137,12 @@ def bench(context) -> Iterator[Bench]:
     made = Bench(context)
     yield made
     made.close()
+
+
+@pytest.fixture(scope="session")
+def passing_bench() -> Callable[[], AbstractContextManager[Bench]]:
+    """Return what makes nodes on an executor for a fixture that keeps what they have said."""
+    return new_bench
 
 
 @pytest.fixture(scope="session")

@@ -1,11 +1,13 @@
 import itertools
 import math
+from functools import cache
 
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry, Path
+from own_time import put_in_place
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
@@ -117,21 +119,34 @@ class Walker:
 
 @pytest.fixture(scope="module")
 def pairs(walk_bag):
-    """Return the first 20 s of the walk on one grid."""
+    """Return the first 14 s of the walk on one grid."""
     recording = read_bag(walk_bag)
     left, right = align(recording.left, recording.right)
-    return left[:1200], right[:1200]
+    return left[:840], right[:840]
 
 
-@pytest.mark.parametrize("sync", ["internal", "external"])
-def test_what_is_published_is_what_the_tracker_says_to_the_bit(bench, pairs, sync):
-    walker = Walker(bench, {"sync": sync})
-    walker.walk(*pairs)
-    got = walker.published()
+@pytest.fixture(scope="module")
+def walked(passing_bench, pairs):
+    """Return a function that gives what is published of the walk with certain parameters."""
+
+    @cache
+    def run(**values):
+        with pytest.MonkeyPatch.context() as patch, passing_bench() as bench:
+            put_in_place(patch)
+            walker = Walker(bench, {"frames.odom": "map", **values})
+            walker.walk(*pairs)
+            return walker.published()
+
+    return run
+
+
+@pytest.mark.parametrize("values", [{}, {"sync": "external"}], ids=["internal", "external"])
+def test_what_is_published_is_what_the_tracker_says_to_the_bit(walked, pairs, values):
+    got = walked(**values)
     tracker = DualFootTracker(TrackerConfig(), engine="compiled")
     k = 0
-    for stamp_ns, values in zip(pairs[0].stamp_ns.tolist(), stack_pairs(*pairs), strict=True):
-        update = tracker.add(ImuPair(stamp_ns, values))
+    for stamp_ns, row in zip(pairs[0].stamp_ns.tolist(), stack_pairs(*pairs), strict=True):
+        update = tracker.add(ImuPair(stamp_ns, row))
         if update.left is None:
             continue
         for foot, estimate in (("left", update.left), ("right", update.right)):
@@ -146,10 +161,8 @@ def test_what_is_published_is_what_the_tracker_says_to_the_bit(bench, pairs, syn
     assert k == len(got["left"]) > 100
 
 
-def test_odometry_has_frames_increasing_stamps_and_full_covariances(bench, pairs):
-    walker = Walker(bench, {"frames.odom": "map"})
-    walker.walk(*pairs)
-    got = walker.published()
+def test_odometry_has_frames_increasing_stamps_and_full_covariances(walked):
+    got = walked()
     children = {"left": "left_foot", "right": "right_foot", "person": "base_footprint"}
     for name, child in children.items():
         assert {(m.header.frame_id, m.child_frame_id) for m in got[name]} == {("map", child)}
@@ -163,10 +176,8 @@ def test_odometry_has_frames_increasing_stamps_and_full_covariances(bench, pairs
                 assert (np.diag(matrix)[:3] > 0.0).any()
 
 
-def test_the_twist_is_the_change_of_the_pose_in_the_child_frame(bench, pairs):
-    walker = Walker(bench, {"method": "zupt"})
-    walker.walk(*pairs)
-    messages = walker.published()["left"]
+def test_the_twist_is_the_change_of_the_pose_in_the_child_frame(walked):
+    messages = walked(method="zupt")["left"]
     position = np.array([pose_of(m.pose.pose)[0] for m in messages])
     seconds = np.array([to_ns(m.header.stamp) for m in messages]) * 1e-9
     change = np.gradient(position, seconds, axis=0)
@@ -182,10 +193,8 @@ def test_the_twist_is_the_change_of_the_pose_in_the_child_frame(bench, pairs):
     assert np.median(np.linalg.norm(change - velocity, axis=1)[swings]) < 0.1
 
 
-def test_the_person_is_midway_between_the_feet_on_the_floor(bench, pairs):
-    walker = Walker(bench)
-    walker.walk(*pairs)
-    got = walker.published()
+def test_the_person_is_midway_between_the_feet_on_the_floor(walked):
+    got = walked()
     left, right, person = (
         np.array([pose_of(m.pose.pose)[0] for m in got[n]]) for n in ("left", "right", "person")
     )
@@ -195,11 +204,8 @@ def test_the_person_is_midway_between_the_feet_on_the_floor(bench, pairs):
     assert all(abs(m.pose.pose.orientation.x) < 1e-12 for m in got["person"])
 
 
-def test_a_path_has_a_pose_for_each_stance_and_comes_at_most_once_a_second(bench, pairs):
-    walker = Walker(bench)
-    walker.walk(*pairs)
-    walker.published()
-    paths = walker.got["paths"]
+def test_a_path_has_a_pose_for_each_stance_and_comes_at_most_once_a_second(walked, pairs):
+    paths = walked()["paths"]
     stamps = np.array([to_ns(path.header.stamp) for path in paths])
     assert (np.diff(stamps) >= 10**9).all()
     track = DualFootTracker(TrackerConfig()).run(*pairs)

@@ -17,6 +17,7 @@ from ...core import ConfigError
 from .live_state import Cursor, LiveState
 
 PERIOD_S = 0.2  # between two messages to a browser
+POLL_S = 0.1  # between two looks whether the server has to end
 PATIENCE_S = 10.0  # for a browser that does not read, or does not finish its question
 MOST_READERS = 16
 RETRY_MS = 1000
@@ -57,7 +58,9 @@ class PageServer(ThreadingHTTPServer):
             super().__init__((host, port), PageHandler)
         except OSError as error:
             raise ConfigError(_sentence(error, host, port)) from None
-        self._thread = threading.Thread(target=self.serve_forever, name="page", daemon=True)
+        self._thread = threading.Thread(
+            target=self.serve_forever, args=(POLL_S,), name="page", daemon=True
+        )
         self._thread.start()
 
     @property

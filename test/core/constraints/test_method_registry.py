@@ -59,7 +59,7 @@ from dualfoot_ros.simulation import WalkConfig, simulate
 config = TrackerConfig.from_mapping({"method": "same_height", "same_height.height_std": 0.2})
 made = simulate(WalkConfig.from_mapping({"route": "L", "standing": 4.0}), seed=1)
 result = DualFootTracker(config, engine="interpreted" if "numba" not in sys.modules else "auto")
-track = result.run(made.left[:2500], made.right[:2500])
+track = result.run(made.left[:1400], made.right[:1400])
 events = track.of_kind(EventKind.CONSTRAINT)
 print(json.dumps({
     "specs": [s.name for s in all_specs() if s.name.startswith("same_height")],

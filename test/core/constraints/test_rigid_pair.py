@@ -218,11 +218,18 @@ def run(made, arm, method: str):
     return DualFootTracker(TrackerConfig.from_mapping(config)).run(made.left, made.right)
 
 
+@cache
+def noisy_and_clean(seed: int):
+    """Return a walk with white noise only and without any, and the arm."""
+    walked, arm = board(seed)
+    sensors = white_noise(), grade("ideal")
+    return [simulate(walked, sensor, seed=seed) for sensor in sensors], arm
+
+
 def deviations(seed: int, method: str) -> list[float]:
     """Return what white noise does to each sensor's track: RMS (m) against the same without."""
-    walked, arm = board(seed)
-    noisy = run(simulate(walked, white_noise(), seed=seed), arm, method)
-    clean = run(simulate(walked, grade("ideal"), seed=seed), arm, method)
+    made, arm = noisy_and_clean(seed)
+    noisy, clean = (run(each, arm, method) for each in made)
     stamps = np.intersect1d(noisy.left.stamp_ns, clean.left.stamp_ns)
     found = []
     for a, b in ((noisy.left, clean.left), (noisy.right, clean.right)):

@@ -34,7 +34,7 @@ class Bench:
 
     def __init__(self, parts=(), *, external=False):
         config = TrackerConfig.from_mapping({"alignment": {"duration": 0.5, "window": 0.1}})
-        self.tracker = DualFootTracker(config, engine="interpreted")
+        self.tracker = DualFootTracker(config, engine="compiled")
         self.aligner, self.log = Aligner(), Log()
         self.report = FusionReport(
             self.tracker, self.aligner, parts, self.log, self.log, external=external

@@ -9,7 +9,7 @@ from dualfoot_ros.simulation import WalkConfig, simulate
 def tracked(first: int, count: int, **options: float) -> list[Update]:
     """Return the updates of a part of a walk that have an estimate."""
     made = simulate(WalkConfig(route="straight", rate=60.0, standing=3.0), seed=1)
-    tracker = DualFootTracker(TrackerConfig.from_mapping(options), engine="interpreted")
+    tracker = DualFootTracker(TrackerConfig.from_mapping(options), engine="compiled")
     rows = np.hstack(
         [
             each

@@ -1,6 +1,7 @@
 """A context of its own for each test, a domain of its own for each worker, loopback only."""
 
 import fcntl
+import importlib
 import importlib.util
 import os
 import signal
@@ -233,3 +234,31 @@ def program() -> Iterator[Callable[..., Program]]:
     yield start
     for each in started:
         each.kill()
+
+
+class Refusal:
+    """What a program ended with that was run in this process."""
+
+    def __init__(self, code: int, output: str):
+        self._code, self.output = code, output
+
+    def code(self) -> int:
+        """Return the exit code."""
+        return self._code
+
+
+@pytest.fixture
+def program_here(monkeypatch, capfd) -> Callable[..., Refusal]:
+    """Run an executable in this process, which has imported everything: it must end by itself."""
+
+    def run(module: str, *arguments: object) -> Refusal:
+        main = importlib.import_module(f"dualfoot_ros.nodes.{module}").main
+        monkeypatch.setattr(sys, "argv", [module, *map(str, arguments)])
+        with default_signals():  # the program ignores them at its end
+            try:
+                code = main()
+            except SystemExit as end:  # --help, and what argparse refuses
+                code = int(end.code or 0)
+        return Refusal(code, "".join(capfd.readouterr()))
+
+    return run

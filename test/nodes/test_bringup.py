@@ -47,11 +47,11 @@ def test_the_files_that_help_names_are_there():
     assert named and all((root / name).exists() for name in named)
 
 
-def test_an_existing_recording_is_not_overwritten(program, walk_bag, tmp_path):
+def test_an_existing_recording_is_not_overwritten(program_here, walk_bag, tmp_path):
     (tmp_path / "result").mkdir()
     (tmp_path / "result" / "mine.txt").write_text("mine")
     arguments = ["-p", f"bag:={walk_bag}", "-p", f"record:={tmp_path / 'result'}"]
-    running = program("bringup", "--ros-args", *arguments)
+    running = program_here("bringup", "--ros-args", *arguments)
     assert running.code() == 2
     assert str(tmp_path / "result") in running.output
     assert (tmp_path / "result" / "mine.txt").read_text() == "mine"
@@ -75,7 +75,7 @@ def test_adapters_have_their_own_sections_in_one_file(program, tmp_path):
 def with_sources(program, tmp_path):
     """Start bringup with the sources of the two feet."""
 
-    def start(left, right="topic:///b"):
+    def start(left, right="topic:///b", program=program):
         path = tmp_path / "sources.yaml"
         sections = [
             f"/**/{foot}/imu_adapter:\n  ros__parameters:\n    source: '{source}'\n"
@@ -100,8 +100,10 @@ def with_sources(program, tmp_path):
         ("file:///no/such.csv", "there is no file '/no/such.csv'"),
     ],
 )
-def test_a_bad_source_of_one_foot_ends_it_all_with_the_node_s_name(with_sources, source, said):
-    running = with_sources("topic:///a", source)
+def test_a_bad_source_of_one_foot_ends_it_all_with_the_node_s_name(
+    with_sources, program_here, source, said
+):
+    running = with_sources("topic:///a", source, program_here)
     assert running.code() == 2
     assert "bringup: error: /me/right/imu_adapter: " in running.output
     assert said in running.output and "Traceback" not in running.output

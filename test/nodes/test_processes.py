@@ -69,9 +69,22 @@ def test_an_impatient_ctrl_c_is_no_traceback_either(program):
     assert "Traceback" not in running.output
 
 
+def test_a_process_prints_its_help_and_ends_with_code_0(program):
+    running = program("fusion", "--help")
+    assert running.code() == 0
+    assert "examples:" in running.output
+
+
+def test_a_process_that_is_refused_prints_one_sentence_and_ends_with_code_2(program):
+    running = program("fusion", "--ros-args", "-p", "zupt.std:=-1.0")
+    assert running.code() == 2
+    assert running.output.startswith("fusion: error: parameter 'zupt.std' is -1.0")
+    assert running.output.count("\n") == 1
+
+
 @pytest.mark.parametrize("node", NODES)
-def test_help_shows_examples_and_every_parameter_and_starts_nothing(program, node):
-    running = program(node, "--help")
+def test_help_shows_examples_and_every_parameter_and_starts_nothing(program_here, node):
+    running = program_here(node, "--help")
     assert running.code() == 0
     assert "examples:" in running.output and "ros2 run dualfoot_ros" in running.output
     assert "parameters" in running.output and "configuration:" not in running.output
@@ -88,8 +101,8 @@ def test_help_shows_examples_and_every_parameter_and_starts_nothing(program, nod
         (["--params-file", "/no/such.yaml"], "/no/such.yaml"),
     ],
 )
-def test_a_bad_parameter_is_one_sentence_and_exit_code_2(program, arguments, said):
-    running = program("fusion", "--ros-args", *arguments)
+def test_a_bad_parameter_is_one_sentence_and_exit_code_2(program_here, arguments, said):
+    running = program_here("fusion", "--ros-args", *arguments)
     assert running.code() == 2
     assert said in running.output and "fusion: error:" in running.output
     assert "Traceback" not in running.output
@@ -121,8 +134,8 @@ def test_a_preset_reaches_a_node_in_a_namespace(program):
     running.wait_for("idc.apply_at=detection")
 
 
-def test_an_argument_that_is_not_for_ros_is_refused(program):
-    running = program("fusion", "walk.bag")
+def test_an_argument_that_is_not_for_ros_is_refused(program_here):
+    running = program_here("fusion", "walk.bag")
     assert running.code() == 2
     assert "unrecognized arguments: walk.bag" in running.output
 
@@ -143,19 +156,19 @@ def test_an_argument_that_is_not_for_ros_is_refused(program):
     ],
 )
 def test_a_source_that_is_not_there_is_one_sentence_and_exit_code_2(
-    program, node, parameter, said
+    program_here, node, parameter, said
 ):
-    running = program(node, "--ros-args", "-p", parameter)
+    running = program_here(node, "--ros-args", "-p", parameter)
     assert running.code() == 2
     assert said in running.output
     assert "Traceback" not in running.output
 
 
-def test_publish_tf_without_tf2_msgs_is_refused_at_the_start(program):
+def test_publish_tf_without_tf2_msgs_is_refused_at_the_start(program_here):
     try:
         import tf2_msgs.msg  # noqa: F401
     except ImportError:
-        running = program("fusion", "--ros-args", "-p", "publish_tf:=true")
+        running = program_here("fusion", "--ros-args", "-p", "publish_tf:=true")
         assert running.code() == 2
         assert "tf2_msgs cannot be imported" in running.output
     else:

@@ -137,7 +137,7 @@ def _centered(points: FloatArray) -> tuple[float, FloatArray, float, FloatArray]
 
 
 def _nodes(first: float, last: float) -> FloatArray:
-    """Return NODES slopes from ``first`` to ``last``: as numpy's linspace, in a tenth of its time."""
+    """Return NODES slopes from ``first`` to ``last``, the bits of numpy's linspace."""
     nodes = COUNTED * ((last - first) / (NODES - 1)) + first
     nodes[-1] = last
     return nodes

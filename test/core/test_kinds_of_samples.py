@@ -71,7 +71,7 @@ def test_a_foot_that_is_sampled_beside_the_other_keeps_the_heading_too(phase):
 
 @cache
 def _gained_beside(phase):
-    """Return the heading error that an ideal right foot gains, sampled ``phase`` after the left."""
+    """Return the heading error that an ideal right foot gains, ``phase`` after the left one."""
     sensor = replace(grade("ideal"), increments="compensated")
     clocks = ClockConfig(), ClockConfig(phase=phase)
     simulation = simulate(lap(60.0), sensor, clocks, seed=2)

@@ -109,7 +109,7 @@ def test_live_equals_batch_to_the_bit_over_a_recording_that_begins_anew(before, 
 def test_interpreted_equals_compiled_to_the_bit(method, wrong):
     if ENGINE == "interpreted":
         pytest.skip("numba is not installed")
-    pairs = disturbed(walk(13.0), wrong)
+    pairs = disturbed(walk(10.5), wrong)
     config = TrackerConfig(method=method)
     interpreted = live(DualFootTracker(config, engine="interpreted"), pairs)
     same_bits(interpreted, DualFootTracker(config, engine="compiled").run(*pairs.series()))

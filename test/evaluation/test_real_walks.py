@@ -1,5 +1,6 @@
 """The real walks with the defaults: what single-foot programs reach must be reached."""
 
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,11 @@ def walks(folder: Path) -> list[Path]:
 
 def evaluated(path: Path, method: str = "zupt", **settings):
     """Return the evaluation of one recording, no parameter set but those of ``settings``."""
+    return _evaluated(path, method=method, **settings)
+
+
+@cache
+def _evaluated(path: Path, method: str, **settings):
     recording = import_recording(ImportOptions(sources=(path,)))
     found = track(recording, TrackerConfig.from_mapping({"method": method, **settings}))
     return evaluate(found, reference=recording.reference)

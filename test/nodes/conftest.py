@@ -160,11 +160,11 @@ def walk_bag(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="session")
 def short_bag(walk_bag, tmp_path_factory) -> Path:
-    """Return the first 20 s of the walk, with truth."""
+    """Return the first 15 s of the walk, with truth."""
     from dualfoot_ros.recording import read_bag, write_bag
 
     whole = read_bag(walk_bag)
-    cut = replace(whole, left=whole.left[:1200], right=whole.right[:1200])
+    cut = replace(whole, left=whole.left[:900], right=whole.right[:900])
     return write_bag(tmp_path_factory.mktemp("bags") / "short", cut)
 
 

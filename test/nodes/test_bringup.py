@@ -15,7 +15,7 @@ def test_bringup_plays_a_bag_records_what_comes_of_it_and_ends(program, short_ba
     target = tmp_path / "result"
     running = program(
         "bringup", "--ros-args", "-p", f"bag:={short_bag}", "-p", f"record:={target}",
-        "-p", "play.rate:=8.0", "-r", "__ns:=/me", "-p", "engine:=compiled",
+        "-p", "play.rate:=20.0", "-r", "__ns:=/me", "-p", "engine:=compiled",
         "-p", "input.depth:=10000", "-p", "input.latency:=0.0",
     )  # fmt: skip
     assert running.code() == 0, running.output

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,7 @@ from .walk_lines import result_facts, result_lines
 
 if TYPE_CHECKING:
     from ...calibration import Calibration, PivotFit, SensorCalibration, WalkCalibration
+    from ...recording import Reference
 
 HELP = "scale and misalignment of both gyros from ordinary walks, without any known point"
 FIRST = "  dualfoot calibrate walk eights/* -o both.yaml\n"
@@ -81,6 +83,7 @@ def run(args: argparse.Namespace) -> int:
     existing = common.existing(args.output)
     common.check_parameters(args)
     recordings = [(Path(path).name, load_usable(path, args)) for path in args.bags]
+    _check_loops(args, [each.reference for _, each in recordings])
     given = _given(existing)
     with progress("calibrating") as update:
         result = calibrate_walks(
@@ -109,6 +112,17 @@ def _misalignment(args: argparse.Namespace, usual: float) -> float:
     return value
 
 
+def _check_loops(args: argparse.Namespace, references: Sequence[Reference | None]) -> None:
+    """Refuse a file for the pivot where none can be found, before the minutes of the fit."""
+    from ...calibration import CalibrationError
+
+    if args.parameters is not None and not any(each and each.closed_loop for each in references):
+        raise CalibrationError(
+            "no walk is a loop by its reference.yaml, so the pivot is not observable and "
+            f"'{args.parameters}' is not written; see 'closed_loop' in the files reference"
+        )
+
+
 def _given(existing: Calibration) -> dict[str, SensorCalibration]:
     from ...core import FEET
 
@@ -121,7 +135,7 @@ def _write(
     result: WalkCalibration,
     pivot: PivotFit | None,
 ) -> list[Path]:
-    from ...calibration import CalibrationError, parameter_text
+    from ...calibration import parameter_text
     from ...recording import write_text
 
     files = []
@@ -132,11 +146,7 @@ def _write(
         calibration.save(args.output)
         files.append(args.output)
     if args.parameters is not None:
-        if pivot is None:
-            raise CalibrationError(
-                "no walk is a loop by its reference.yaml, so the pivot is not observable and "
-                f"'{args.parameters}' is not written; see 'closed_loop' in the files reference"
-            )
+        assert pivot is not None  # there is a loop
         remarks = ["The pivot of the foot from loops ('dualfoot calibrate walk')."]
         write_text(args.parameters, parameter_text(pivot.parameters(), remarks))
         files.append(args.parameters)

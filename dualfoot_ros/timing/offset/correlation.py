@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import FloatArray, ImuSeries
+from ...core import FloatArray, ImuSeries, IntArray
 
 STEP_S = 0.005  # grid of all signals
 SMOOTH_S = 0.04  # a quarter of the shortest feature of a step
@@ -88,10 +88,17 @@ def correlate(first: Signal, second: Signal) -> Correlation:
 
     a, b = first.values, second.values
     product = sums(a, b)
-    energy_a = sums(a * a, np.ones_like(b))
-    energy_b = sums(np.ones_like(a), b * b)
+    shift = np.arange(-(len(b) - 1), len(a))
+    energy_a = _energy(a, np.maximum(shift, 0), np.minimum(shift + len(b), len(a)))
+    energy_b = _energy(b, np.maximum(-shift, 0), np.minimum(len(a) - shift, len(b)))
     least = LEAST_ENERGY * min(float(a @ a), float(b @ b)) + 1e-12
     value = product / np.sqrt(np.maximum(energy_a, least) * np.maximum(energy_b, least))
-    shift = np.arange(-(len(b) - 1), len(a)) * STEP_S
-    lag_s = np.asarray(shift + (first.start_ns - second.start_ns) * 1e-9, dtype=np.float64)
-    return Correlation(lag_s, value)
+    start_s = (first.start_ns - second.start_ns) * 1e-9
+    return Correlation(np.asarray(shift * STEP_S + start_s, dtype=np.float64), value)
+
+
+def _energy(values: FloatArray, first: IntArray, end: IntArray) -> FloatArray:
+    """Return the sums of squares of ``values`` from each ``first`` to each ``end``."""
+    so_far = np.concatenate(([0.0], np.cumsum(values * values)))
+    energy: FloatArray = so_far[end] - so_far[first]
+    return energy

@@ -1,6 +1,7 @@
 """Straight lines: long straights hold the heading, short ones and turns do not; live is batch."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from dualfoot_ros.timing import align
 AID = {"aids.straight_lines": True}
 
 
+@cache
 def samples(route, seed=0, **settings):
     """Return a simulated walk and its paired series."""
     made = simulate(WalkConfig(route=route, rate=60.0, standing=4.0, **settings), seed=seed)

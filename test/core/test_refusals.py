@@ -91,8 +91,8 @@ def test_a_refused_pair_leaves_the_estimate_untouched():
     one, other = aligned_tracker(), aligned_tracker()
     good = next_pair(one)
     one.add(next_pair(one, v3=float("nan")))
-    one.add(ImuPair(one._stream._gate.last_ns, good.values))
-    one.add(ImuPair(one._stream._gate.last_ns - 5, good.values))
+    one.add(ImuPair(one._stream.gate.last_ns, good.values))
+    one.add(ImuPair(one._stream.gate.last_ns - 5, good.values))
     assert one.add(good).row.tobytes() == other.add(good).row.tobytes()
 
 

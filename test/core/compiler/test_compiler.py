@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 import hashlib
+import importlib
 import json
 import os
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from processes import PATIENCE_S
 
 from dualfoot_ros.core import DualFootTracker
-from dualfoot_ros.core.compiler import cache_directory
+from dualfoot_ros.core.compiler import BackgroundEngine, background, cache_directory
 from dualfoot_ros.core.kernel import ENTRIES, epoch, interpreted, turn
+from dualfoot_ros.core.kernel import layout as lay
 
 from ..following import live
 from ..harness import walk
 
 ROOT = Path(__file__).resolve().parents[3]
+compiled_kernel = importlib.import_module("dualfoot_ros.core.compiler.compiled")
 
 WATCH = """
 import types, numba
@@ -54,8 +58,6 @@ print(json.dumps([at_once, engines[300], engines[-1], digest.hexdigest()]))
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory):
     """Return a walk that crosses a switch of the engine, as a file, and its interpreted digest."""
-    import numpy as np
-
     pairs = walk(11.0)
     file = tmp_path_factory.mktemp("walk") / "pairs.npz"
     np.savez(file, stamps=pairs.stamps, values=pairs.values)
@@ -98,17 +100,39 @@ def test_without_numba_everything_runs_interpreted_with_the_same_bits(recording,
     assert engines_and_digest == ["interpreted", "interpreted", "interpreted", recording[1]]
 
 
-def test_where_no_cache_can_be_written_the_kernel_is_compiled_all_the_same(
-    recording, tmp_path, monkeypatch
-):
-    """... and with the same bits when nothing is optimized, which is quicker here."""
-    pytest.importorskip("numba")
-    monkeypatch.setenv("NUMBA_OPT", "0")
+@pytest.fixture
+def nowhere(tmp_path, monkeypatch):
+    """Let no cache be written."""
     blocked = tmp_path / "a file"
     blocked.write_text("no directory can be made below this")
-    at_once, _, last, digest = tracked(recording, "", blocked / "cache")
-    assert (at_once, last) == ("interpreted", "compiled")
-    assert digest == recording[1]
+    monkeypatch.setenv("DUALFOOT_CACHE_DIR", str(blocked / "cache"))
+
+
+def test_where_no_cache_can_be_written_the_kernel_is_compiled_all_the_same(nowhere, monkeypatch):
+    """The small entries stand for all: what is compiled where is one for all of them."""
+    pytest.importorskip("numba")
+    wanted = compiled_kernel._signatures()
+    few = {name: wanted[name] for name in ("restore", "set_flags")}
+    monkeypatch.setattr(compiled_kernel, "_signatures", lambda: few)
+    engine = compiled_kernel.compiled.__wrapped__()
+    assert engine.name == "compiled"
+    assert all(getattr(engine, name).signatures == [few[name].args] for name in few)
+    flags = []
+    for kernel in (engine, interpreted()):
+        n = np.zeros(lay.integer_size(16), dtype=np.int64)
+        n[lay.N_RING] = 16
+        kernel.set_flags(n, 1, 3, 9, True)
+        flags.append(n[lay.N_FLAGS :].tolist())
+    assert sum(flags[0]) == 2 * 7 and flags[0] == flags[1]
+
+
+def test_where_no_cache_can_be_written_no_other_process_is_asked_to_fill_it(nowhere, monkeypatch):
+    pytest.importorskip("numba")
+    engine, asked = interpreted(), []
+    monkeypatch.setattr(background, "compiled", lambda: engine)
+    monkeypatch.setattr(background.subprocess, "run", lambda *given, **how: asked.append(given))
+    assert BackgroundEngine().wait() is engine
+    assert asked == []
 
 
 def test_importing_the_core_imports_neither_numba_nor_scipy():

@@ -6,7 +6,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 BAG := bags/demo
 OUTPUT := demo_output
-WORKERS := 2
+# One more than two cores: some tests wait for processes, devices and a browser.
+WORKERS := 3
 
 .DEFAULT_GOAL := help
 # Demo and tests start hundreds of processes; without byte code on disk each compiles the package.

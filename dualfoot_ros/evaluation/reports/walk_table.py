@@ -64,7 +64,7 @@ def sections(run: Evaluation) -> list[list[Row]]:
 
 def number(value: float | None, digits: int = 2) -> str:
     """Return a figure as text, a dash where there is none."""
-    return "-" if value is None or math.isnan(value) else f"{value:.{digits}f}"
+    return "-" if value is None or math.isnan(value) else f"{value:z.{digits}f}"
 
 
 def _walk(run: Evaluation) -> Iterator[Row]:

@@ -359,7 +359,9 @@ const plots = (() => {
       const shape = mark.symbol === "cross" ? "M-5 -5L5 5M5 -5L-5 5" : "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0";
       element("path", { d: shape, stroke: "#1b1b1b", "stroke-width": mark.symbol === "cross" ? 3 : 1.5,
         fill: "#f0e442" }, group);
-      element("text", { x: 9, y: mark.symbol === "cross" ? 16 : -8, fill: "#1b1b1b",
+      const ahead = mark.symbol === "arrow" && Math.cos(mark.angle * Math.PI / 180) > 0;
+      element("text", { x: ahead ? -9 : 9, y: mark.symbol === "cross" ? 16 : -8, fill: "#1b1b1b",
+        "text-anchor": ahead ? "end" : "start", // beside the arrow, not under it
         stroke: "#fff", "stroke-width": 3, "paint-order": "stroke" }, group)
         .textContent = mark.label;
     }

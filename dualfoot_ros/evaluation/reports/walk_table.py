@@ -173,7 +173,7 @@ def methods_table(runs: Mapping[str, Evaluation], title: str) -> Table:
     first = next(iter(runs.values()))
     caption = f"aligned by: {first.alignment_name}; headings at the end of the walk"
     table = Table(title=title, caption=caption, title_justify="left")
-    table.add_column("method")
+    table.add_column("method", no_wrap=True)  # the headings break before it
     table.add_column("foot")
     for name in COLUMNS:
         table.add_column(name, justify="right")

@@ -60,14 +60,14 @@ def test_a_known_tilt_and_bias_are_recovered(roll, pitch):
 @pytest.mark.parametrize(("roll", "pitch"), TILTS[:3])
 def test_a_tilt_has_the_heading_of_the_body_x_axis_zero(roll, pitch):
     session, _ = open_session(TrackerConfig(), tilted(roll, pitch))
-    x_axis = session._estimate.rotation(0)[:, 0]
+    x_axis = session._walk.estimate.rotation(0)[:, 0]
     assert np.arctan2(x_axis[1], x_axis[0]) == pytest.approx(0.0, abs=1e-12)
 
 
 def test_the_feet_start_side_by_side_about_the_origin_left_foot_to_the_left():
     session, _ = open_session(TrackerConfig.from_mapping({"initial.spacing": 0.2}), tilted(0, 0))
-    assert np.allclose(session._estimate.position(0), [0.0, 0.1, 0.0])
-    assert np.allclose(session._estimate.position(1), [0.0, -0.1, 0.0])
+    assert np.allclose(session._walk.estimate.position(0), [0.0, 0.1, 0.0])
+    assert np.allclose(session._walk.estimate.position(1), [0.0, -0.1, 0.0])
 
 
 def test_after_levelling_a_foot_at_rest_feels_no_acceleration():
@@ -76,7 +76,7 @@ def test_after_levelling_a_foot_at_rest_feels_no_acceleration():
     pairs.values[:, [0, 1, 2, 6, 7, 8]] *= 1.01
     session, _ = open_session(TrackerConfig(), pairs)
     still = session._start.feet[0]
-    rotation = session._estimate.rotation(0)
+    rotation = session._walk.estimate.rotation(0)
     bias = session.space.w[18:21]
     assert np.allclose(rotation @ (still.specific_force - bias), [0.0, 0.0, GRAVITY], atol=1e-9)
 
@@ -88,7 +88,7 @@ def test_tilt_and_accelerometer_bias_are_known_to_cancel_from_the_start(roll, pi
     session, _ = open_session(config, tilted(roll, pitch))
     p0, still = config.initial, session._start.feet
     for foot in range(2):
-        rotation = session._estimate.rotation(foot)
+        rotation = session._walk.estimate.rotation(foot)
         h = np.hstack(
             [np.zeros((3, 6)), cross_matrix([0.0, 0.0, GRAVITY]), np.zeros((3, 3)), rotation]
         )

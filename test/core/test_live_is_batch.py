@@ -121,7 +121,7 @@ def test_a_switch_of_the_engine_in_mid_walk_leaves_no_trace():
     pairs = walk(12.0)
     tracker = DualFootTracker(engine="interpreted")
     followed = live(tracker, pairs[:560])
-    tracker._use(quick_engine())
+    tracker._stream.use(quick_engine())
     followed = live(tracker, pairs[560:], followed)
     assert followed.engines == {"interpreted", "compiled"}
     same_bits(followed, DualFootTracker(engine="compiled").run(*pairs.series()))

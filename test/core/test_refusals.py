@@ -43,7 +43,8 @@ def standing_tracker(engine: str) -> DualFootTracker:
 def aligned_tracker(engine: str | None = None) -> DualFootTracker:
     """Return a tracker of its own that has just been aligned."""
     made = standing_tracker(engine or quick_engine().name)
-    return deepcopy(made, {id(made._engine): made._engine})  # code is not copied
+    code = made._stream.engine
+    return deepcopy(made, {id(code): code})  # code is not copied
 
 
 def next_pair(tracker: DualFootTracker, **changes: float) -> ImuPair:
@@ -51,7 +52,7 @@ def next_pair(tracker: DualFootTracker, **changes: float) -> ImuPair:
     values = standing_samples(1).values[0].copy()
     for name, value in changes.items():
         values[int(name[1:])] = value
-    return ImuPair(tracker._gate.last_ns + STEP, values)
+    return ImuPair(tracker._stream.gate.last_ns + STEP, values)
 
 
 @pytest.mark.parametrize(
@@ -80,7 +81,7 @@ def test_a_bad_value_is_refused_by_name_and_counted(value, name, element):
 def test_a_stamp_that_does_not_follow_is_refused_by_name_and_counted(behind_ns, name):
     tracker = aligned_tracker()
     pair = next_pair(tracker)
-    update = tracker.add(ImuPair(tracker._gate.last_ns - behind_ns, pair.values))
+    update = tracker.add(ImuPair(tracker._stream.gate.last_ns - behind_ns, pair.values))
     assert update.refused == name
     assert tracker.counters[name] == 1
     assert tracker.phase == "standing"
@@ -112,7 +113,7 @@ def test_a_recording_that_begins_anew_is_counted_and_announced():
 def test_a_clock_that_is_set_costs_one_pair_and_nothing_else(jump_s):
     tracker = aligned_tracker()
     before = tracker.add(next_pair(tracker))
-    first = tracker._gate.last_ns + round(jump_s * 1e9)
+    first = tracker._stream.gate.last_ns + round(jump_s * 1e9)
     found = [tracker.add(ImuPair(first + k * STEP, next_pair(tracker).values)) for k in range(200)]
     assert [update.refused is None for update in found[:3]] == [False, True, True]
     assert tracker.counters["clock_jumps"] == 1 and tracker.counters["resets"] == 0
@@ -183,7 +184,7 @@ def test_add_never_raises_at_any_rate(step):
 def test_add_never_raises_for_anything_once_aligned(pairs):
     for engine in ("interpreted", quick_engine().name):
         tracker = aligned_tracker(engine)
-        stamp = tracker._gate.last_ns
+        stamp = tracker._stream.gate.last_ns
         for step, numbers in pairs:
             stamp += step
             total(tracker, stamp, numbers)
@@ -195,7 +196,7 @@ def test_a_violent_recording_within_range_gives_finite_numbers(seed, size):
     tracker, rng = aligned_tracker(), np.random.default_rng(seed)
     for _ in range(300):
         numbers = rng.uniform(-size, size, 12)
-        update = tracker.add(ImuPair(tracker._gate.last_ns + STEP, numbers))
+        update = tracker.add(ImuPair(tracker._stream.gate.last_ns + STEP, numbers))
         assert np.isfinite(update.row).all()
 
 

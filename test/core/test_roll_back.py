@@ -43,7 +43,7 @@ def session_with(method: Idc, pairs: Pairs):
     """Return a session of the base filter that asks ``method``, and its first sample."""
     config = TrackerConfig.from_mapping({"method": "idc", "idc.kappa": 0.0, **AS_IS})
     session, start = open_session(config, pairs)
-    session._method = method
+    session._walk.method = method
     return session, start
 
 
@@ -72,8 +72,8 @@ def test_a_constraint_at_an_earlier_moment_equals_having_applied_it_then(back, s
         due[epoch] = due.get(epoch, 0) + 1
     for epoch, _ in follow(again, pairs, start):
         for _ in range(due.get(epoch, 0)):
-            method.apply(again._estimate)
-            again._roll_back._actions.append((epoch, method.apply))
+            method.apply(again._walk.estimate)
+            again._walk.roll_back._actions.append((epoch, method.apply))
     assert state_bits(again.space.w) == state_bits(session.space.w)
 
 

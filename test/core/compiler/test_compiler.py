@@ -44,8 +44,8 @@ for k in range(1, len(data["stamps"])):
     if update.row is not None:
         digest.update(update.row.tobytes())
     engines.append(tracker.engine)
-    if k == 420 and tracker._background is not None:
-        tracker._background.wait()
+    if k == 420 and tracker._stream.background is not None:
+        tracker._stream.background.wait()
 print(json.dumps([at_once, engines[300], engines[-1], digest.hexdigest()]))
 """
 

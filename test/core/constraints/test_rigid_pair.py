@@ -119,7 +119,7 @@ def test_with_known_attitude_it_is_the_papers_linear_filter():
         }
     )
     session, start = open_session(config, pairs)
-    session.phase = "walking"
+    session._walk.phase = "walking"
     P = np.diag(np.tile(np.repeat([4e-4, 1e-4, 0.0, 0.0, 0.0], 3), 2))
     set_covariance(session.space, P)
     w = session.space.w

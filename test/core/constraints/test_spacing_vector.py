@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dualfoot_ros.core.constraints.spacing_vector import SpacingVector, SpacingVectorConfig
-from dualfoot_ros.core.heading import mean_angle
+from dualfoot_ros.core.rotation import mean_angle
 
 from ..kernel.states import set_covariance
 from .joint import (

@@ -6,9 +6,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core import TrackerConfig
-from dualfoot_ros.core.initial_state import InitialState
 from dualfoot_ros.core.kernel import Workspace
 from dualfoot_ros.core.kernel import layout as lay
+from dualfoot_ros.core.session.initial_state import InitialState
 
 SCALES = np.repeat([0.3, 0.1, 0.02, 1e-3, 0.05], 3)
 SAMPLE = lay.RINGS + 1

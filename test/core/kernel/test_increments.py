@@ -17,9 +17,9 @@ from scipy.spatial.transform import Rotation
 from scipy.special import j1
 
 from dualfoot_ros.core import Increments
-from dualfoot_ros.core.initial_state import KINDS
 from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.kernel.strapdown import mechanize
+from dualfoot_ros.core.session.initial_state import KINDS
 
 GRAVITY = 9.80665
 SAMPLE = lay.RINGS + 1

@@ -14,15 +14,15 @@ from enum import StrEnum
 
 import numpy as np
 
-from .config import TrackerConfig
-from .gait_history import GaitHistory
+from ..config import TrackerConfig
+from ..gait_history import GaitHistory
+from ..joint_estimate import HeadingCorrection, JointEstimate, Outcome, relative_row
+from ..kernel import Workspace
+from ..kernel import layout as lay
+from ..results.events import FEET, Event, EventKind
+from ..rotation import about_z, turn_between
+from ..samples.series import FloatArray
 from .heading import Headings
-from .joint_estimate import HeadingCorrection, JointEstimate, Outcome, relative_row
-from .kernel import Workspace
-from .kernel import layout as lay
-from .results.events import FEET, Event, EventKind
-from .rotation import about_z, turn_between
-from .samples.series import FloatArray
 
 SWING_SPEED = 2.0  # m/s, of a foot about which nothing is known
 SWING_RATE, STAND_RATE = 3.0, 0.3  # rad/s, at which a foot may have turned meanwhile

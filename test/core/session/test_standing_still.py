@@ -8,7 +8,7 @@ import pytest
 from dualfoot_ros.core import DualFootTracker, TrackerConfig
 from dualfoot_ros.core.kernel import layout as lay
 
-from .harness import Pairs, open_session, quick_engine, simulated, walk
+from ..harness import Pairs, open_session, quick_engine, simulated, walk
 
 
 def standing(seed: int, seconds: float) -> Pairs:
@@ -52,7 +52,7 @@ def test_the_covariance_of_a_standing_foot_covers_its_drift():
             pass
         for foot in range(2):
             drift = (
-                session._estimate.position(foot)
+                session._walk.estimate.position(foot)
                 - out[start, lay.O_FOOT * foot : lay.O_FOOT * foot + 3]
             )
             P = session.space.covariance()[15 * foot : 15 * foot + 3, 15 * foot : 15 * foot + 3]

@@ -12,15 +12,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .config_groups import HeadingConfig
+from ..config_groups import HeadingConfig
+from ..kernel import Engine, Workspace
+from ..kernel import layout as lay
+from ..results.events import FEET, Event, EventKind
+from ..results.facing import Facing
+from ..results.payloads import YawTurn
+from ..rotation import about_z, mean_angle, turn_between
+from ..samples.series import FloatArray
 from .initial_state import InitialState
-from .kernel import Engine, Workspace
-from .kernel import layout as lay
-from .results.events import FEET, Event, EventKind
-from .results.facing import Facing
-from .results.payloads import YawTurn
-from .rotation import about_z, mean_angle, turn_between
-from .samples.series import FloatArray
 
 LEAST_WAY = 0.5  # m; a shorter way has no direction
 SCATTER_RATE = 0.03  # rad/s, of a foot's heading over two strides of a straight walk

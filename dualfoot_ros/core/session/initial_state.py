@@ -7,14 +7,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .alignment import FootStandstill
-from .config import TrackerConfig
-from .kernel import Workspace
-from .kernel import layout as lay
-from .results.events import FEET
-from .rotation import about_z
-from .samples.increments import Increments
-from .samples.series import FloatArray
+from ..alignment import FootStandstill
+from ..config import TrackerConfig
+from ..kernel import Workspace
+from ..kernel import layout as lay
+from ..results.events import FEET
+from ..rotation import about_z
+from ..samples.increments import Increments
+from ..samples.series import FloatArray
 
 KINDS = {
     Increments.COMPENSATED: lay.COMPENSATED,

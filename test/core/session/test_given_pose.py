@@ -9,7 +9,7 @@ import pytest
 
 from dualfoot_ros.core import ConfigError, DualFootTracker, TrackerConfig
 
-from .harness import quick_engine, walk
+from ..harness import quick_engine, walk
 
 GIVEN = np.diag([4.0, 1.0, 0.25, 0.01])
 

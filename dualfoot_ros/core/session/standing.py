@@ -11,13 +11,13 @@ import math
 
 import numpy as np
 
-from .alignment import FootStand, Window
-from .config import TrackerConfig
-from .joint_estimate import HeadingCorrection, JointEstimate, Outcome
-from .kernel import Workspace
-from .kernel import layout as lay
-from .kernel.layout import gyro_bias_row
-from .results.payloads import StandBias
+from ..alignment import FootStand, Window
+from ..config import TrackerConfig
+from ..joint_estimate import HeadingCorrection, JointEstimate, Outcome
+from ..kernel import Workspace
+from ..kernel import layout as lay
+from ..kernel.layout import gyro_bias_row
+from ..results.payloads import StandBias
 
 LEAST_STD = 5.0e-5  # rad/s
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from dualfoot_ros.core import DualFootTracker, EventKind, ImuPair, TrackerConfig
 
-from .following import live, same_bits
-from .harness import Pairs, quick_engine, simulated, walk
+from ..following import live, same_bits
+from ..harness import Pairs, quick_engine, simulated, walk
 
 ENGINE = quick_engine().name
 RATE = 60.0
@@ -155,7 +155,7 @@ def test_what_is_no_number_never_leaves():
     pairs = [ImuPair(int(s), v) for s, v in zip(whole.stamps, whole.values, strict=True)]
     for pair in pairs[:600]:
         tracker.add(pair)
-    tracker._session.space.w[0] = np.nan
+    tracker._stream.session.space.w[0] = np.nan
     update = tracker.add(pairs[600])
     assert update.row is None and tracker.phase == "aligning"
     assert [e.detail["reason"] for e in update.events] == ["the estimate was not finite"]

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .errors import ConfigError
-from .kernel import Workspace
-from .kernel import layout as lay
-from .samples.series import FloatArray
+from ..errors import ConfigError
+from ..kernel import Workspace
+from ..kernel import layout as lay
+from ..samples.series import FloatArray
 
 JOINT_ERRORS = 2 * lay.ERRORS
 

@@ -20,8 +20,8 @@ from dualfoot_ros.core import (
 from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.results.events import FEET
 
-from .following import live
-from .harness import Pairs, quick_engine, simulated, walk
+from ..following import live
+from ..harness import Pairs, quick_engine, simulated, walk
 
 ENGINE = quick_engine().name
 STRAIGHT = {"route": "straight", "rate": 60.0}

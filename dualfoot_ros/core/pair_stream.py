@@ -1,0 +1,223 @@
+"""Pairs in, updates out, one by one: refused, aligned with, or tracked."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+
+from .aids import AidInputs
+from .alignment import Alignment, BiasPrior, Start
+from .compiler import BackgroundEngine, compiled
+from .config import TrackerConfig
+from .errors import ConfigError
+from .kernel import Engine, interpreted
+from .results.events import FEET, Event, EventKind
+from .results.payloads import Reason
+from .results.update import Update
+from .samples.increments import Increments
+from .samples.pair_gate import MAX_GAP_NS, Jump, PairGate
+from .samples.series import FloatArray, ImuPair
+from .session import GivenPose, Session
+
+
+class PairStream:
+    """The tracking of a stream of pairs, from its first alignment over every reset."""
+
+    def __init__(
+        self, config: TrackerConfig, counters: Counter[str], inputs: AidInputs, engine: str
+    ) -> None:
+        """Count in ``counters``; the aids use ``inputs``.
+
+        Raises
+        ------
+        ConfigError
+            For an unknown ``engine``.
+        """
+        self.config, self.counters, self._inputs = config, counters, inputs
+        self.increments: dict[str, Increments | None] = dict.fromkeys(FEET)
+        self.priors: dict[str, BiasPrior] = {}
+        self.pose: GivenPose | None = None
+        self.session: Session | None = None
+        self.use_engine(engine)
+        self._begin()
+
+    def _begin(self) -> None:
+        self.align_anew()
+        self.session = None
+        self.gate = PairGate()
+        self._pending: list[Event] = []
+        self._aids = self._inputs.methods()
+
+    def align_anew(self) -> None:
+        """Forget what an alignment has seen."""
+        self.alignment = Alignment(self.config, self.priors)
+
+    # --- the kernel ------------------------------------------------------------------------------
+
+    def use_engine(self, engine: str) -> None:
+        """Go on with another form of the kernel: "auto", "compiled" or "interpreted".
+
+        Raises
+        ------
+        ConfigError
+            For any other ``engine``.
+        """
+        if engine not in ("auto", "compiled", "interpreted"):
+            raise ConfigError(
+                f"engine is {engine!r}; allowed is one of auto, compiled, interpreted"
+            )
+        self.background = BackgroundEngine() if engine == "auto" else None
+        self.engine = compiled() if engine == "compiled" else interpreted()
+        if self.session is not None:
+            self.session.use(self.engine)
+
+    def use(self, engine: Engine) -> None:
+        """Go on with ``engine`` for good."""
+        self.engine, self.background = engine, None
+        if self.session is not None:
+            self.session.use(engine)
+
+    def wait_for_engine(self) -> None:
+        """Go on with the compiled kernel, where one was asked for and can be had."""
+        if self.background is not None:
+            engine = self.background.wait()
+            self.use(engine if engine is not None else self.engine)
+
+    def _poll_engine(self) -> None:
+        ready = self.background.poll() if self.background else None
+        if ready is not None:
+            self.use(ready)
+
+    # --- pairs -----------------------------------------------------------------------------------
+
+    @property
+    def phase(self) -> str:
+        """The phase: "aligning", "standing" (aligned, still refining) or "walking"."""
+        return self.session.phase if self.session else "aligning"
+
+    @property
+    def walking(self) -> Session | None:
+        """The session, when nothing but samples can change it now."""
+        return self.session if self.phase == "walking" and not self.pose else None
+
+    def reset(self, stamp_ns: int, reason: Reason) -> None:
+        """Forget everything but the counters and align anew."""
+        self.counters["resets"] += 1
+        self._begin()
+        self._pending.append(Event(EventKind.RESET, stamp_ns, "both", stamp_ns, reason=reason))
+
+    def retune(self, config: TrackerConfig) -> None:
+        """Go on with the weights, thresholds, aids and distances of ``config``."""
+        self.config = config
+        self._aids = self._inputs.retune(config.aids, self._aids)
+        if self.session is not None:
+            self.session.retune(config, self._aids)
+
+    def add(self, pair: ImuPair) -> Update:
+        """Take one pair; total: bad data gives a counted, named refusal, never an exception."""
+        stamp, values = int(pair.stamp_ns), pair.values
+        refused = self.gate.refusal(stamp, values)
+        jumped = refused is Jump.CLOCK_SET
+        if refused is Jump.BEGINS_ANEW:
+            self.reset(stamp, Reason.TIME_JUMPED)
+        elif refused is not None and not jumped:
+            self.counters[refused] += 1
+            return Update(stamp, self.phase, refused=refused, events=self._take_pending())
+        self.counters["pairs"] += 1
+        if self.background is not None:
+            self._poll_engine()
+        dt_ns = self.gate.step(stamp)
+        if self.session is None:
+            if jumped:
+                self.align_anew()
+            return self._align(stamp, values)
+        if jumped:
+            self.counters["clock_jumps"] += 1
+            dt_ns = 2 * self.session.holes.period_ns
+        return self._track(self.session, stamp, dt_ns, values)
+
+    def _take_pending(self) -> tuple[Event, ...]:
+        events, self._pending = tuple(self._pending), []
+        return events
+
+    def _align(self, stamp: int, values: FloatArray) -> Update:
+        """Look for a start; where pairs have waited for it, run them first."""
+        start = self.alignment.add(stamp, values)
+        self.counters["alignment_restarts"] = self.alignment.restarts
+        if start is None:
+            return Update(stamp, "aligning", events=self._take_pending())
+        session = self._begin_session(start, stamp)
+        if not start.waiting:
+            return Update(stamp, "aligning", events=self._take_pending())
+        return self._catch_up(session, start)
+
+    def _begin_session(self, start: Start, stamp: int) -> Session:
+        kinds = [self.increments[foot] for foot in FEET]
+        refining = None if start.waiting else self.alignment
+        session = Session(self.config, self.engine, start, refining, self._aids, kinds)
+        self.session = session
+        self._pending.append(session.aligned_event(stamp))
+        return session
+
+    def _catch_up(self, session: Session, start: Start) -> Update:
+        """Run the pairs that have waited; return the update of the newest, with those before."""
+        before: list[Update] = []
+        last_ns = max(foot.end_ns for foot in start.feet)
+        for stamp, values in start.waiting:
+            before.append(self._track(session, stamp, stamp - last_ns, values))
+            last_ns = stamp
+        return before[-1].after(before[:-1])
+
+    def start_late(self, stamp_ns: int) -> Update | None:
+        """Start from what is there when no pair follows that of ``stamp_ns``."""
+        start = self.alignment.finish() if self.session is None else None
+        if start is None or not start.waiting:
+            return None
+        return self._catch_up(self._begin_session(start, stamp_ns), start)
+
+    def _track(self, session: Session, stamp: int, dt_ns: int, values: FloatArray) -> Update:
+        before: tuple[Event, ...] = ()
+        holes = session.holes
+        if self._pending:
+            before = self._take_pending()
+        if dt_ns > MAX_GAP_NS:
+            self.counters["gaps"] += 1
+            before = (*before, *holes.bridge(dt_ns * 1e-9))
+            dt_ns = holes.period_ns
+        elif dt_ns > holes.longest_ns:
+            self.counters["filled"] += 1
+            before = (*before, *holes.fill(stamp, dt_ns, values))
+            dt_ns = holes.filled_ns
+        if self.pose is not None:
+            before = (*before, *self._apply_pose(session, stamp))
+        row, found = session.step(stamp, dt_ns * 1e-9, values)
+        if not np.isfinite(row).all():  # the last guard: nothing that is no number ever leaves
+            self.reset(stamp, Reason.NOT_FINITE)
+            return Update(stamp, "aligning", events=self._take_pending())
+        return Update(
+            stamp,
+            session.phase,
+            row=row,
+            events=(*before, *found) if found else before,
+            blocks=session.space.blocks(),
+            facing=session.facing,
+        )
+
+    def _apply_pose(self, session: Session, stamp: int) -> list[Event]:
+        if self.pose is None or not session.can_set_pose():
+            return []
+        pose, self.pose = self.pose, None
+        return session.set_pose(stamp, pose)
+
+    def went_on(self, rows: FloatArray, last_ns: int) -> bool:
+        """Take note that ``walking`` has run samples; return whether their rows are numbers.
+
+        ``rows`` (N, OUT) are what it gave, ``last_ns`` the stamp of the last sample.
+        """
+        self.counters["pairs"] += len(rows)
+        self.gate.step(last_ns)
+        finite = bool(np.isfinite(rows).all())
+        if not finite:
+            self.reset(last_ns, Reason.NOT_FINITE)
+        return finite

@@ -1,0 +1,74 @@
+"""Samples that are missing: short holes are filled, longer ones are got over."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..kernel import layout as lay
+from ..results.events import FEET, Event, EventKind
+from ..samples.series import FloatArray
+from .absence import Presence
+from .notices import Found
+from .walk_state import WalkState
+
+LONGEST_STEP = 1.7  # of the nominal interval: longer ones are holes
+
+
+class Holes:
+    """Gets a walk over what is missing; ``step`` runs one epoch of it."""
+
+    def __init__(
+        self, walk: WalkState, step: Callable[[int, float, FloatArray], tuple[FloatArray, Found]]
+    ) -> None:
+        self._walk, self._step = walk, step
+        self._rate_hz = walk.space.rate_hz
+        self.filled_ns = 0
+
+    @property
+    def period_ns(self) -> int:
+        """Nominal interval of the samples, ns."""
+        return round(1e9 / self._rate_hz)
+
+    @property
+    def longest_ns(self) -> int:
+        """Interval between two samples above which some are missing between them, ns."""
+        return round(LONGEST_STEP * 1e9 / self._rate_hz)
+
+    def fill(self, stamp: int, dt_ns: int, values: FloatArray) -> Found:
+        """Run epochs on the line between the sample before and that of ``stamp`` (12,).
+
+        What they cannot know of the motion goes into the covariance.  The newest sample itself
+        remains to be run, with an interval of ``filled_ns``.
+        """
+        space = self._walk.space
+        start = lay.RINGS + lay.SAMPLE * (space.epoch % space.ring) + 1
+        before = space.w[start : start + 12].copy()
+        count = max(1, round(dt_ns * 1e-9 * self._rate_hz))
+        self.filled_ns = dt_ns // count
+        found: Found = []
+        for k in range(1, count):
+            between = before + (values - before) * (k / count)
+            at = stamp - (count - k) * self.filled_ns
+            found += self._step(at, self.filled_ns * 1e-9, between)[1]
+        if count > 1:
+            space.blur(dt_ns * 1e-9 - 1.0 / self._rate_hz, values - before)
+        return found
+
+    def bridge(self, gap_s: float) -> Found:
+        """Get over a gap in the data: nothing is known of what the feet did meanwhile."""
+        walk = self._walk
+        last = walk.gait.stamp(walk.space.epoch)
+        until = last + round(gap_s * 1e9)
+        found: Found = []
+        for foot in range(2):
+            standing = walk.space.foot(foot, "N_PHASE") in (lay.STANCE, lay.LEAVING)
+            if standing:
+                found.append(Event(EventKind.STANCE_END, last, FEET[foot], last))
+            if walk.absences.of[foot] is not Presence.MISSING:
+                walk.absences.gone(foot, last, standing=standing)
+                walk.absences.back(foot, until)
+        walk.space.bridge(gap_s)
+        walk.carriage.interrupted()
+        walk.roll_back.forget()
+        walk.watch()
+        return [*found, Event(EventKind.BRIDGED, last, "both", until)]

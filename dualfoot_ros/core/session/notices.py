@@ -1,0 +1,171 @@
+"""What a session does when the kernel reports something: a stance, a passing, a foot without data.
+
+What needs the future is done by going back (``RollBack``): a stance or swing too short to be one
+is undone, and a constraint can be applied at the moment it is about.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+from ..constraints import Method, Request, StancePhase
+from ..joint_estimate import Outcome
+from ..kernel import layout as lay
+from ..results.events import FEET, Event, EventKind
+from .absence import Presence
+from .walk_state import WalkState
+
+Found = list[Event]
+
+
+class Notices:
+    """Attends to the notices of a walk."""
+
+    def __init__(self, walk: WalkState, *, stood_first: bool) -> None:
+        """``stood_first`` says that the walk begins with a stand that its start has used."""
+        self._walk = walk
+        self._standing_start = [stood_first] * 2
+
+    def attend(self) -> Found:
+        """Do what the newest epoch's notices ask for."""
+        walk = self._walk
+        notices = int(walk.space.n[lay.N_NOTICE])
+        bits = [notices & 15, notices >> lay.NOTICE_SHIFT]
+        walk.roll_back.clean_phases(bits)
+        found = self._presence(notices)
+        if notices & lay.NOTICE_FLOOR:
+            found += self._floor()
+        for foot in range(2):
+            if notices & (lay.NOTICE_STOOD << foot):
+                walk.stands.take(foot, walk.gait.stamp(walk.space.epoch))
+            if bits[foot] & lay.STANCE_CONFIRMED:
+                found += self._stance_confirmed(foot)
+            elif bits[foot] & lay.STANCE_ENDED:
+                found += self._stance_ended(foot)
+        if notices & lay.NOTICE_WATCH and walk.coupled:
+            found += walk.constrain("both", walk.method, walk.method.on_epoch(walk.gait))
+        return found
+
+    def _floor(self) -> Found:
+        """Attend to what both standing feet have gained."""
+        walk = self._walk
+        if walk.watches_floor:
+            return walk.carriage.window()
+        walk.space.w[lay.F_SECONDS] = 0.0
+        return []
+
+    def _presence(self, notices: int) -> Found:
+        """Attend to feet that are without samples, or that have samples again."""
+        walk, found = self._walk, Found()
+        stamp = walk.gait.stamp(walk.space.epoch)
+        for foot in range(2):
+            if notices & (lay.NOTICE_GONE << foot):
+                standing = bool((notices >> (foot * lay.NOTICE_SHIFT)) & lay.STANCE_ENDED)
+                found.append(walk.absences.gone(foot, stamp, standing=standing))
+            elif notices & (lay.NOTICE_BACK << foot):
+                # Before its first sample is used: that may be a ZUPT.
+                walk.roll_back.before_newest(partial(walk.absences.back, foot, stamp))
+            else:
+                continue
+            walk.carriage.interrupted()
+            walk.forget()
+            walk.watch()
+            walk.facing = walk.headings.facing()
+        return found
+
+    def _phase(self, foot: int, last: int) -> StancePhase:
+        walk = self._walk
+        lag = 0.5 * (int(walk.space.n[lay.N_WINDOW]) - 1)
+        first = walk.space.foot(foot, "N_START")
+        period, heading = walk.gait.period_s, walk.headings.mean
+        return StancePhase(foot, first, last, lag, walk.space.epoch, period, heading)
+
+    def _stance_confirmed(self, foot: int) -> Found:
+        walk = self._walk
+        stamp = walk.gait.stamp(walk.space.foot(foot, "N_START"))
+        now = walk.gait.stamp(walk.space.epoch)
+        found = [Event(EventKind.STANCE_START, stamp, FEET[foot], now)]
+        if walk.watches_floor:
+            found += walk.carriage.landed(foot, heading_known=walk.headings.known)
+        if walk.absences.of[foot] is Presence.BACK:
+            walk.absences.level(foot)
+            walk.forget()
+        found += self._turn(foot, now)
+        phase = self._phase(foot, walk.space.epoch)
+        for method in self._askable(foot):
+            found += walk.constrain(FEET[foot], method, method.on_stance_start(phase, walk.gait))
+        return found
+
+    def _turn(self, foot: int, now: int) -> Found:
+        """Turn a foot, or both, when this stance tells where the walk heads."""
+        walk = self._walk
+        turned = walk.headings.stance(walk.engine, foot, now, walk.phase == "walking")
+        walk.facing = walk.headings.facing()
+        if turned and walk.headings.known:
+            turned += walk.join_pair(now)
+            walk.watch()
+        return turned
+
+    def _askable(self, foot: int) -> list[Method]:
+        """Return the aids and the method, those that need the heading once it is known.
+
+        The method needs both feet, and the aids the one that stands.
+        """
+        walk = self._walk
+        known = walk.headings.known
+        joined = walk.absences.of[foot] is Presence.JOINED
+        aids = [each for each in walk.aids if joined and (known or not each.needs_heading)]
+        free = known or not walk.method.needs_heading
+        return [*aids, walk.method] if free and walk.absences.none else aids
+
+    def _stance_ended(self, foot: int) -> Found:
+        walk = self._walk
+        last = walk.space.foot(foot, "N_LEAVE") - 1
+        now = walk.gait.stamp(walk.space.epoch)
+        found = [Event(EventKind.STANCE_END, walk.gait.stamp(last, now), FEET[foot], now)]
+        walk.phase = "walking"
+        walk.gait.ended[foot] = last
+        found += self._learn_bias(foot, now)
+        phase = self._phase(foot, last)
+        for method in self._askable(foot):
+            found += walk.constrain(FEET[foot], method, method.on_stance_end(phase, walk.gait))
+        if walk.absences.can_join(foot):
+            found += self._join(foot, phase, now)
+        return found
+
+    def _join(self, foot: int, phase: StancePhase, now: int) -> Found:
+        """Put a foot that is back beside the other one, where that passed it."""
+        walk, found = self._walk, Found()
+        if walk.absences.of[1 - foot] is Presence.JOINED:
+            moment = phase.moment(0.5)
+            if not walk.gait.remembers(moment):
+                return []
+            spacing = walk.spacing[0] if walk.spacing else 0.0
+            beside = partial(walk.absences.put_beside, foot=foot, spacing_m=spacing)
+            walk.roll_back.apply([Request(moment, True, beside)])
+        found.append(walk.absences.joined(foot, now))
+        walk.watch()
+        walk.facing = walk.headings.facing()
+        return found
+
+    def _learn_bias(self, foot: int, now: int) -> Found:
+        """Learn the gyro bias from the stand that has ended, unless it was that of the start."""
+        walk = self._walk
+        if self._standing_start[foot] or not walk.stands.stood(foot):
+            self._standing_start[foot] = False
+            walk.stands.forget(foot)
+            return []
+        return [_stood_event(foot, now, walk.stands.learn(foot, walk.estimate))]
+
+
+def _stood_event(foot: int, now: int, outcome: Outcome) -> Event:
+    return Event(
+        EventKind.STOOD,
+        now,
+        FEET[foot],
+        now,
+        outcome.innovation,
+        outcome.S,
+        outcome.nis,
+        payload=outcome.payload,
+    )

@@ -1,0 +1,180 @@
+"""A tracker that has been aligned: it runs epochs and attends to what they report."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from ..alignment import Alignment, Start
+from ..config import TrackerConfig
+from ..constraints import Method
+from ..kernel import Engine
+from ..kernel import layout as lay
+from ..results.events import FEET, Event, EventKind
+from ..results.facing import Facing
+from ..results.payloads import Levelled
+from ..samples.increments import Increments
+from ..samples.series import FloatArray, IntArray
+from .given_pose import GivenPose, apply_covariance
+from .holes import Holes
+from .notices import Found, Notices
+from .walk_state import WalkState
+
+
+class Session:
+    """The tracking of two feet from one alignment on."""
+
+    def __init__(
+        self,
+        config: TrackerConfig,
+        engine: Engine,
+        start: Start,
+        alignment: Alignment | None = None,
+        aids: Sequence[Method] = (),
+        increments: Sequence[Increments | None] = (None, None),
+    ) -> None:
+        """Level both feet from ``start``; ``aids`` are asked as the method is.
+
+        ``alignment`` goes on refining a stand; ``increments`` is what the sources of both feet
+        say that their samples are.
+        """
+        self._start, self._alignment, self._feet = start, alignment, start.feet
+        self._origin = np.zeros(3)
+        self._pose_covariance: FloatArray | None = None
+        self._walk = walk = WalkState(config, start.rate_hz, aids, increments)
+        self._notices = Notices(walk, stood_first=not start.waiting)
+        self.holes = Holes(walk, self.step)
+        self._dt, self._values = np.empty(1), np.empty((1, 12))
+        self._row = np.zeros((1, lay.OUT))
+        self.space, self.rate_hz = walk.space, start.rate_hz
+        walk.use(engine)
+        self._level()
+        for foot, still in enumerate(start.feet):
+            if still.absent:
+                walk.absences.never_there(foot, still.end_ns)
+        walk.facing = walk.headings.facing()
+
+    @property
+    def phase(self) -> str:
+        """The phase: "standing" (the stand of the start goes on) or "walking"."""
+        return self._walk.phase
+
+    @property
+    def facing(self) -> Facing:
+        """Where the feet head in their axes, as far as that is known."""
+        return self._walk.facing
+
+    @property
+    def spacing(self) -> tuple[float, float] | None:
+        """Distance of the feet side by side and its standard deviation, m, if it is in use."""
+        return self._walk.spacing
+
+    def retune(self, config: TrackerConfig, aids: Sequence[Method]) -> None:
+        """Go on with other weights, thresholds, aids and distances."""
+        self._walk.retune(config, aids)
+
+    def use(self, engine: Engine) -> None:
+        """Go on with another form of the kernel."""
+        self._walk.use(engine)
+
+    def _level(self) -> None:
+        walk = self._walk
+        walk.initial.level(self._feet, self._origin, walk.headings.forward)
+        arm = walk.method.lever_arm
+        if arm is not None:
+            walk.estimate.place(1, walk.second_sensor(arm))
+        if self._pose_covariance is not None:
+            apply_covariance(self.space, self._pose_covariance, replace=False)
+        walk.headings.levelled()
+        walk.facing = walk.headings.facing()
+        walk.watch()
+
+    def aligned_event(self, stamp: int) -> Event:
+        """Return the event that says what the alignment found."""
+        feet = dict(zip(FEET, self._feet, strict=True))
+        levelled = Levelled(
+            str(self._start.kind),
+            {name: still.angular_rate.tolist() for name, still in feet.items()},
+            {name: float(np.linalg.norm(still.specific_force)) for name, still in feet.items()},
+            max(still.rate_std for still in feet.values()),
+            self.rate_hz,
+        )
+        return Event(EventKind.ALIGNED, stamp, "both", stamp, payload=levelled)
+
+    def step(self, stamp: int, dt_s: float, values: FloatArray) -> tuple[FloatArray, Found]:
+        """Run one epoch; return its output row (OUT,) and the events it brought."""
+        walk = self._walk
+        if walk.phase == "standing":
+            self._refine(stamp, values)
+        space, n = self.space, self.space.n
+        self._dt[0] = dt_s
+        self._values[0] = values
+        walk.engine.advance(space.w, n, self._dt, self._values, 0, 1, self._row)
+        space.stamps[n[lay.N_EPOCH] % space.ring] = stamp
+        found: Found = []
+        if n[lay.N_NOTICE]:
+            found = self._notices.attend()
+            walk.engine.emit(space.w, n, self._row, 0)
+        return self._row[0].copy(), found
+
+    def _refine(self, stamp: int, values: FloatArray) -> None:
+        """Level anew when the stand has gone on for a window's length more."""
+        alignment = self._alignment
+        if alignment is None or not math.isfinite(values.sum()):
+            self._alignment = None
+        elif alignment.refine(stamp, values):
+            self._feet = alignment.result()
+            self._level()
+
+    def steps(
+        self,
+        stamps: IntArray,
+        dts: FloatArray,
+        values: FloatArray,
+        span: tuple[int, int],
+        out: FloatArray,
+    ) -> Iterator[tuple[int, Found]]:
+        """Run the epochs of ``span`` [start, stop) into ``out``; yield rows that brought events.
+
+        ``dts`` (N,) s are the intervals that end at each sample.
+        """
+        space = self.space
+        k, stop = span
+        while k < stop:
+            first, engine = space.epoch + 1, self._walk.engine
+            done = engine.advance(space.w, space.n, dts, values, k, stop, out)
+            tail = max(k, done - space.ring)
+            epochs = np.arange(first + tail - k, first + done - k)
+            space.stamps[epochs % space.ring] = stamps[tail:done]
+            k = done
+            if space.n[lay.N_NOTICE]:
+                found = self._notices.attend()
+                engine.emit(space.w, space.n, out, k - 1)
+                if found:
+                    yield k - 1, found
+
+    def can_set_pose(self) -> bool:
+        """Return whether `set_pose` can be obeyed now: standing, or the heading is known."""
+        return self.phase == "standing" or self._walk.headings.known
+
+    def set_pose(self, stamp: int, pose: GivenPose) -> Found:
+        """Put the person where the ``pose`` says; return both tracks' turns."""
+        walk, found = self._walk, Found()
+        if self.phase == "standing":
+            up_m = float(pose.position[2] - self._origin[2])
+            turned = pose.yaw - walk.headings.forward
+            self._origin, self._pose_covariance = pose.position, pose.covariance
+            walk.headings.face(pose.yaw)
+            self._level()
+        else:
+            found = walk.headings.set_pose(walk.engine, pose.position, pose.yaw, stamp)
+            if pose.covariance is not None:
+                apply_covariance(self.space, pose.covariance, replace=True)
+            walk.facing = walk.headings.facing()
+            up_m, turned = found[0].turn.shift[2], found[0].turn.yaw
+        for method in (*walk.aids, walk.method):
+            method.moved(up_m, turned)
+        walk.forget()
+        return found

@@ -1,0 +1,129 @@
+"""What a session knows of the walk, as all that happens on the way asks and changes it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..carried import Carriage
+from ..config import TrackerConfig
+from ..constraints import METHODS, Method, Request
+from ..gait_history import GaitHistory
+from ..joint_estimate import JointEstimate, Outcome
+from ..kernel import Engine, Workspace
+from ..kernel import layout as lay
+from ..results.events import Event
+from ..roll_back import RollBack
+from ..samples.increments import Increments
+from ..samples.series import FloatArray
+from .absence import Absences
+from .heading import Headings, turn
+from .initial_state import InitialState
+from .standing import Stands
+
+
+class WalkState:
+    """The state of both feet, and those who look after a part of it."""
+
+    def __init__(
+        self,
+        config: TrackerConfig,
+        rate_hz: float,
+        aids: Sequence[Method],
+        increments: Sequence[Increments | None],
+    ) -> None:
+        """Make room for the feet; ``aids`` are asked as the method is."""
+        self.method: Method = METHODS[config.method](config.constraint)
+        self.aids = aids
+        stance = config.stance
+        memory = stance.min_stance + stance.min_swing + stance.window + 0.1
+        memory = max(1.3, memory + max(each.memory_s for each in (self.method, *aids)))
+        space = self.space = Workspace(rate_hz, memory)
+        self.initial = InitialState(config, space, increments)
+        self.headings = Headings(config.heading, space, self.initial)
+        self.gait = GaitHistory(space)
+        self.roll_back = RollBack(space)
+        self.stands = Stands(config, space)
+        self.carriage = Carriage(config.floor, space, self.gait, self.roll_back)
+        self.absences = Absences(config, space, self.headings, self.gait)
+        self.phase = "standing"
+        self.facing = self.headings.facing()
+
+    def use(self, engine: Engine) -> None:
+        """Go on with another form of the kernel."""
+        self.engine = engine
+        self.estimate = JointEstimate(self.space, engine)
+        self.roll_back.use(engine, self.estimate)
+
+    def retune(self, config: TrackerConfig, aids: Sequence[Method]) -> None:
+        """Go on with other weights, thresholds, aids and distances."""
+        self.aids = aids
+        self.initial.retune(config)
+        self.method.retune(config.constraint)
+        self.carriage.retune(config.floor)
+        self.forget()
+
+    def forget(self) -> None:
+        """Go back to nothing that was before now: it cannot be run again as it was."""
+        self.roll_back.forget()
+        self.space.forget()
+
+    @property
+    def spacing(self) -> tuple[float, float] | None:
+        """Distance of the feet side by side and its standard deviation, m, if it is in use."""
+        spacing = self.method.spacing
+        return None if spacing is None else (spacing.value_m, spacing.std_m)
+
+    @property
+    def coupled(self) -> bool:
+        """Whether the feet may be constrained to each other."""
+        return self.headings.known and self.absences.none
+
+    @property
+    def watches_floor(self) -> bool:
+        """Whether two feet can tell now that they are carried."""
+        walking = self.phase == "walking" and self.absences.none
+        return self.carriage.watches and walking and not self.method.sensors_on_one_shoe
+
+    def watch(self) -> None:
+        """Have the kernel report when the method wants to know, once the heading is known."""
+        limit = self.method.watch_m if self.coupled else math.inf
+        self.space.w[lay.C_WATCH] = limit * abs(limit)
+
+    def second_sensor(self, arm: FloatArray) -> FloatArray:
+        """Return where the second sensor of a rigid pair is (3,), m."""
+        return self.estimate.position(0) + self.estimate.rotation(0) @ arm
+
+    def join_pair(self, now: int) -> list[Event]:
+        """Put the second sensor of a rigid pair back beside the first, both having turned."""
+        arm = self.method.lever_arm
+        if arm is None:
+            return []
+        shift = self.second_sensor(arm) - self.estimate.position(1)
+        return [turn(self.space, self.engine, 1, 0.0, np.zeros(3), shift, stamp=now)]
+
+    def constrain(self, foot: str, method: Method, requests: Sequence[Request]) -> list[Event]:
+        """Apply what a method asked for, and tell it and the caller what came of it."""
+        if not requests:
+            return []
+        done = self.roll_back.apply(requests)
+        for _, outcome in done:
+            method.note(outcome)
+            self.carriage.constrained(outcome)
+        return [self._event(foot, *pair) for pair in done]
+
+    def _event(self, foot: str, request: Request, outcome: Outcome) -> Event:
+        return Event(
+            request.kind,
+            self.gait.stamp(request.epoch),
+            foot,
+            self.gait.stamp(self.space.epoch),
+            outcome.innovation,
+            outcome.S,
+            outcome.nis,
+            outcome.accepted,
+            outcome.payload,
+            outcome.reason,
+        )

@@ -31,7 +31,7 @@ $(VENV)/.kernel: $(VENV)/.installed $(wildcard dualfoot_ros/core/kernel/*.py dua
 demo: $(VENV)/.kernel ## replay bags/demo through the real nodes and compare with the truth
 	@$(BIN)/python -m dualfoot_ros.nodes.demo $(BAG) -o $(OUTPUT)
 
-test: lint types pytest ## run ruff, mypy and every test
+test: lint types docs dist pytest ## run ruff, mypy, every test; build docs/, wheel and sdist
 
 pytest: $(VENV)/.kernel ## run the tests only
 	@OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n $(WORKERS) --dist loadfile
@@ -50,23 +50,16 @@ format: $(VENV)/.installed ## format the code with ruff
 config: $(VENV)/.installed ## write the generated files of config/ from the declarations
 	@$(BIN)/python scripts/write_config.py
 
-docs: $(VENV)/.docs ## build docs/ as a site in build/site; a broken link is an error
+docs: $(VENV)/.installed ## build docs/ as a site in build/site; a broken link is an error
 	@$(BIN)/mkdocs build --strict --quiet
 	@echo build/site/index.html
 
-$(VENV)/.docs: $(VENV)/.installed
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
-	@touch $@
-
-dist: $(VENV)/.dist ## build wheel and source distribution in dist/, and use the wheel without ROS
-	@rm -rf dist
-	@$(BIN)/python -m build --outdir dist >/dev/null
+# The wheel is built from the source distribution, so that a file missing there is missed here.
+dist: $(VENV)/.kernel ## build wheel and source distribution in dist/, and use the wheel without ROS
+	@rm -rf dist && mkdir -p build
+	@$(BIN)/python -m build --no-isolation --outdir dist >build/dist.log 2>&1 \
+		|| { cat build/dist.log >&2; exit 1; }
 	@scripts/check_wheel $(BIN)/python
-	@ls dist/*
-
-$(VENV)/.dist: $(VENV)/.installed
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[dist]"
-	@touch $@
 
 golden: $(VENV)/.kernel ## write the golden tracks of the tests anew (and say why in the commit)
 	@$(BIN)/python scripts/golden_tracks.py

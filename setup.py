@@ -64,9 +64,11 @@ setup(
         "ble": ["bleak>=0.21"],
         "cluster": ["distributed>=2024.1"],
         "test": ["pytest", "hypothesis", "selenium>=4.20"],
-        "dev": ["mypy", "pytest-xdist", "ruff", "setuptools", "types-PyYAML"],
-        "docs": ["mkdocs>=1.6"],
-        "dist": ["build>=1.0"],
+        "dev": [
+            *("mypy", "pytest-xdist", "ruff", "types-PyYAML"),
+            *("build>=1.0", "setuptools", "wheel"),
+            "mkdocs>=1.6",
+        ],
         "ros": ["ros-jazzy-common-interfaces", "ros-jazzy-rclpy[fastrtps]"],
     },
     entry_points={

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from dualfoot_ros.cli.main import VERBS, parser_of
-from dualfoot_ros.core import GROUPS, METHODS, all_specs
+from dualfoot_ros.core import GROUPS, METHODS, TrackerConfig, all_specs
 from dualfoot_ros.settings import node_parameter_names, preset_names
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -187,6 +187,17 @@ def test_parameters_that_are_named_exist(page):
         if not (group == "person" and key in PERSON_FILES)
     ]
     assert wrong == []
+
+
+def test_the_readme_gives_the_defaults_that_are_declared():
+    table = text_of(ROOT / "README.md").partition("| parameter | default |")[2].split("\n\n")[0]
+    rows = re.findall(r"^\| `([\w.]+)` \| `?([\w.]+)", table, re.M)
+    defaults = TrackerConfig().to_mapping()
+    assert len(rows) >= 6
+    for name, shown in rows:
+        default = defaults[name]
+        number = isinstance(default, int | float)
+        assert (float(shown) if number else shown) == default, name
 
 
 def test_every_method_and_preset_has_its_row():

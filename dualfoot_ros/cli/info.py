@@ -89,14 +89,17 @@ def _inspect_walk(contents: Contents) -> None:
         walk_findings,
     )
 
+    recording = contents.recording
+    both = bool(recording.left) and bool(recording.right)  # else no foot is against another
     with status("looking for stances"):
         try:
-            samples = pair_samples(contents.recording)
+            samples = pair_samples(recording)
             alone = track_walk(samples, unconstrained_config())
-            stances, findings = stance_statistics(alone), [*walk_findings(alone)]
+            stances, findings = stance_statistics(alone), [*walk_findings(alone)] if both else []
             del alone  # before the next one: a walk of an hour takes most of a gigabyte
             coupled = track_walk(samples)
-            findings += [*coupled_findings(coupled), *ride_findings(coupled.events)]
+            findings += [*coupled_findings(coupled)] if both else []
+            findings += ride_findings(coupled.events)
         except DualFootError as error:
             finding = Finding(FindingKind.NOT_TRACKED, Severity.ERROR, str(error))
             contents.findings.append(finding)

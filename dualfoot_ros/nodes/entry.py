@@ -9,9 +9,14 @@ from __future__ import annotations
 import importlib
 import os
 import signal
+import sys
 from types import FrameType
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
+ADVICE = (
+    "a node needs ROS 2: source its installation (setup.bash), or install the extra 'ros' of "
+    "this package"
+)
 
 
 def bringup() -> int:
@@ -47,7 +52,12 @@ def time_sync() -> int:
 def _run(name: str) -> int:
     for number in SIGNALS:
         signal.signal(number, _leave)
-    code: int = importlib.import_module(f".{name}", __package__).main()
+    try:
+        node = importlib.import_module(f".{name}", __package__)
+    except ModuleNotFoundError as missing:
+        sys.stderr.write(f"{name}: error: {missing.name} is not installed; {ADVICE}\n")
+        return 2
+    code: int = node.main()
     return code
 
 

@@ -3,14 +3,16 @@
 import json
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from dualfoot_ros.core import ImuSeries, Increments
-from dualfoot_ros.recording import Recording, write_bag
+from dualfoot_ros.recording import Recording, read_bag, write_bag
 
 GRAVITY = 9.80665
+DEMO = Path(__file__).resolve().parents[2] / "bags" / "demo"
 
 
 def standing(seed, count=600, start_ns=10**18):
@@ -99,6 +101,14 @@ def test_a_bag_of_one_foot_can_be_evaluated_and_says_which_is_missing(tmp_path, 
     assert done.returncode == 0
     assert "warning: there are no samples of the right foot" in done.stdout
     assert "so the left foot is tracked alone" in done.stdout
+
+
+def test_a_walk_of_one_foot_is_not_measured_against_a_foot_that_is_not_there(tmp_path, dualfoot):
+    left = read_bag(DEMO).left
+    done = dualfoot("info", write_bag(tmp_path / "walk", Recording(left[: len(left) // 4])))
+    assert done.returncode == 0
+    assert "stances (median" in done.stdout
+    assert done.stdout.count("warning:") == 1  # that the right foot is missing
 
 
 def test_topics_of_other_names_are_offered_and_can_be_given(bag, dualfoot):

@@ -222,6 +222,7 @@ def test_the_demo_bag_is_what_the_script_makes(tmp_path):
         for foot in ("left", "right"):
             one, other = getattr(fresh, foot), getattr(kept, foot)
             np.testing.assert_array_equal(one.stamp_ns, other.stamp_ns)
+            assert one.increments is other.increments is Increments.AVERAGED
             # A last bit of the motion may round to the next step of a quantised sample.
             np.testing.assert_allclose(one.specific_force, other.specific_force, atol=5e-3)
             np.testing.assert_allclose(one.angular_rate, other.angular_rate, atol=1.1e-3)

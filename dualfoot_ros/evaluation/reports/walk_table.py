@@ -64,7 +64,7 @@ def sections(run: Evaluation) -> list[list[Row]]:
 
 def number(value: float | None, digits: int = 2) -> str:
     """Return a figure as text, a dash where there is none."""
-    return "-" if value is None or math.isnan(value) else f"{value:.{digits}f}"
+    return "-" if value is None or math.isnan(value) else f"{value:z.{digits}f}"
 
 
 def _walk(run: Evaluation) -> Iterator[Row]:
@@ -173,7 +173,7 @@ def methods_table(runs: Mapping[str, Evaluation], title: str) -> Table:
     first = next(iter(runs.values()))
     caption = f"aligned by: {first.alignment_name}; headings at the end of the walk"
     table = Table(title=title, caption=caption, title_justify="left")
-    table.add_column("method")
+    table.add_column("method", no_wrap=True)  # the headings break before it
     table.add_column("foot")
     for name in COLUMNS:
         table.add_column(name, justify="right")

@@ -9,6 +9,7 @@ import sys
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -97,7 +98,10 @@ def _choose_methods() -> list[str]:
 
 def _check(recording: Recording, has_truth: bool, bag: Path) -> None:
     from ...core import DualFootError
+    from ..entry import ADVICE
 
+    if find_spec("rclpy") is None:
+        raise DualFootError(f"rclpy is not installed; {ADVICE}")
     missing = [foot for foot in ("left", "right") if not recording.imu(foot)]
     if missing:
         raise DualFootError(f"bag '{bag}' has no samples of the {' and the '.join(missing)} foot")

@@ -28,7 +28,9 @@ PERIOD_NS = 100_000_000
 FOOTPRINTS = 400  # kept; the oldest are dropped
 ELLIPSE = 2.4477  # standard deviations of the ellipse that holds 95 %
 THINNEST_M = 0.01
-COLOURS = {"left": (0.85, 0.3, 0.2), "right": (0.2, 0.45, 0.85)}
+COLOURS = {"left": (0.835, 0.369, 0.0), "right": (0.0, 0.447, 0.698)}
+"""Of the feet: #D55E00 and #0072B2, as in every other picture."""
+
 YELLOW, GREEN = (0.9, 0.7, 0.1), (0.1, 0.7, 0.3)
 SHOE = Vector3(x=0.26, y=0.09, z=0.06)
 PRINT = Vector3(x=0.16, y=0.08, z=0.01)

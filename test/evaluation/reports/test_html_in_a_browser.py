@@ -16,6 +16,15 @@ pytestmark = pytest.mark.skipif(bool(why_no_browser()), reason=why_no_browser())
 DESK, PHONE = 1100, 390
 
 
+BAND_OUTSIDE = """
+const figure = document.querySelector("[data-plot='0.map']");
+const shown = figure.querySelector("clipPath rect"), bands = figure.querySelectorAll("ellipse");
+const low = Number(shown.getAttribute("y")), high = low + Number(shown.getAttribute("height"));
+return Array.from(bands, (each) => [Number(each.getAttribute("cy")),
+  Number(each.getAttribute("rx"))]).filter(([y, r]) => y - r < low || y + r > high).length;
+"""
+
+
 @pytest.fixture(scope="module")
 def report(tmp_path_factory):
     """Return the path of the report of a walk with truth."""
@@ -24,6 +33,8 @@ def report(tmp_path_factory):
     track.left.position[:] += np.cumsum(
         rng.normal(scale=0.004, size=track.left.position.shape), axis=0
     )
+    for foot in (track.left, track.right):
+        foot.position_covariance[:, :2, :2] += np.eye(2)  # a band that is wider than the margin
     run = evaluate(track, truth=truth)
     return write_walk_page(tmp_path_factory.mktemp("report"), {"zupt": run}, "a walk")
 
@@ -50,6 +61,8 @@ def test_every_plot_is_drawn_without_an_error_and_the_page_is_no_wider_than_the_
         assert errors(driver) == []
         wide = driver.execute_script("return document.documentElement.scrollWidth")
         assert wide <= width
+        outside = driver.execute_script(BAND_OUTSIDE)
+        assert outside == 0
         loaded = driver.execute_script("return performance.getEntriesByType('resource').length")
         assert loaded == 0
 

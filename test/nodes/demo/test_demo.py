@@ -15,6 +15,7 @@ def test_the_demonstration_prints_one_table_and_the_paths_of_its_plots(
     for method in ("zupt", "idc"):
         assert f"{method}: " in running.output
     assert running.output.count("equal to the offline run to the bit") == 2
+    assert "[WARN]" not in running.output
     assert "RMSE (m)" in running.output and "crossed" in running.output
     plots = sorted((tmp_path / "out").glob("*.png"))
     assert len(plots) >= 4

@@ -147,9 +147,29 @@ const plots = (() => {
         const middle = (y[0] + y[1]) / 2;
         if (this.spec.zero) y[1] = low; else { y[0] = middle - low / 2; y[1] = middle + low / 2; }
       }
+      if (this.equal) this.holdEllipses(xs, y);
       const tall = padded(y, 0.06);
       if (this.spec.zero && y[0] === 0) tall[0] = 0;
       return { x: this.equal ? padded(xs, 0.06) : xs, y: tall };
+    }
+
+    // Make room for the ellipses, but not so much that the line becomes small.
+    holdEllipses(xs, ys) {
+      const most = 0.5 * Math.max(xs[1] - xs[0], ys[1] - ys[0]);
+      const line = [[...xs], [...ys]];
+      for (const s of this.series.filter((each) => each.style === "ellipses")) {
+        const { major, minor, angle } = tables[s.table];
+        for (let i = 0; i < s.xs.length; i += 1) {
+          const c = Math.cos(angle[i] * Math.PI / 180), d = Math.sin(angle[i] * Math.PI / 180);
+          const reach = [Math.hypot(major[i] * c, minor[i] * d),
+            Math.hypot(major[i] * d, minor[i] * c)];
+          for (const [k, own, at] of [[0, xs, s.xs[i]], [1, ys, s.ys[i]]]) {
+            if (!Number.isFinite(at + reach[k])) continue;
+            own[0] = Math.min(own[0], Math.max(at - reach[k], line[k][0] - most));
+            own[1] = Math.max(own[1], Math.min(at + reach[k], line[k][1] + most));
+          }
+        }
+      }
     }
 
     size() {
@@ -359,7 +379,9 @@ const plots = (() => {
       const shape = mark.symbol === "cross" ? "M-5 -5L5 5M5 -5L-5 5" : "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0";
       element("path", { d: shape, stroke: "#1b1b1b", "stroke-width": mark.symbol === "cross" ? 3 : 1.5,
         fill: "#f0e442" }, group);
-      element("text", { x: 9, y: mark.symbol === "cross" ? 16 : -8, fill: "#1b1b1b",
+      const ahead = mark.symbol === "arrow" && Math.cos(mark.angle * Math.PI / 180) > 0;
+      element("text", { x: ahead ? -9 : 9, y: mark.symbol === "cross" ? 16 : -8, fill: "#1b1b1b",
+        "text-anchor": ahead ? "end" : "start", // beside the arrow, not under it
         stroke: "#fff", "stroke-width": 3, "paint-order": "stroke" }, group)
         .textContent = mark.label;
     }

@@ -127,9 +127,14 @@ def html_table(
 
 def _cells(tag: str, row: Sequence[str], text_columns: int) -> str:
     return "".join(
-        f"<{tag}{' class=text' if k < text_columns else ''}>{escape(str(cell))}</{tag}>"
+        f"<{tag}{' class=text' if k < text_columns else ''}>{_breakable(cell)}</{tag}>"
         for k, cell in enumerate(row)
     )
+
+
+def _breakable(cell: str) -> str:
+    """Return a cell that a narrow screen may break within a name."""
+    return escape(str(cell)).replace("_", "_<wbr>")
 
 
 def folded(title: str, content: str) -> str:

@@ -23,6 +23,9 @@ MOST_EVENTS = 500
 FIRST_YEAR = 2000
 """Stamps from before it count from when a device was switched on."""
 
+SHARES = ("vari\u00adability (%)", "sym\u00admetry (%)")
+"""Headings with the places where a phone may break them."""
+
 SHOWN_EVENTS = (
     EventKind.ALIGNED,
     EventKind.HEADING,
@@ -106,7 +109,8 @@ def _run_sections(
     yield section(f"Track{of}", figure(track))
     yield section(f"Plots{of}", *(figure(plot) for plot in others))
     yield section(f"Gait{of}", _gait_table(run), _gait_words(run))
-    rows = html_table(["", "left", "right", "both feet"], sections(run))
+    parts = [[[cell.replace("+-", "±") for cell in row] for row in part] for part in sections(run)]
+    rows = html_table(["", "left", "right", "both feet"], parts)
     yield section(f"Figures{of}", rows, f'<p class="soft">Aligned by: {run.alignment_name}.</p>')
     yield section(f"Events{of}", _events(run))
 
@@ -129,7 +133,7 @@ def _tiles(run: Evaluation, person: PersonTrack) -> dict[str, str]:
 
 
 def _gait_table(run: Evaluation) -> str:
-    header = ["", "left", "±", "right", "±", "both", "variability (%)", "symmetry (%)"]
+    header = ["", "left", "±", "right", "±", "both", *SHARES]
     rows = []
     for name, label in PARAMETERS.items():
         own = run.gait.parameters[name]

@@ -64,7 +64,8 @@ def _panel(axis: Axes, entry: Entry) -> None:
         axis.plot(*points.T, "s", mfc="none", mec=MARKER, markersize=5, label=label)
     for foot, track in entry.tracks.estimate.items():
         axis.plot(*track.T, color=FOOT[foot], linewidth=0.8, label=f"{foot} foot")
-        axis.plot(*track[-1], "X", color=FOOT[foot], markeredgecolor="black", markersize=6)
+        label = f"end of the {foot} foot"
+        axis.plot(*track[-1], "X", color=FOOT[foot], mec="black", markersize=6, label=label)
     axis.set_title(entry.case.label, fontsize=9)
     axis.set_aspect("equal", adjustable="box")
 

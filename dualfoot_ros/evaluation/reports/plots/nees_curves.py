@@ -37,10 +37,16 @@ def draw_consistency(scores: Sequence[Score], path: Path, title: str) -> Path:
         axis.axhline(1.0, color="black", linewidth=0.6)
         axis.set_yscale("log")
         axis.set_title(kind, fontsize=10)
-        axis.legend(loc="upper left", fontsize=7, frameon=False)
     for axis in axes[-1]:
         axis.set_xlabel("share of the walk (%)")
     for axis in axes[:, 0]:
         axis.set_ylabel("NEES over dimensions")
+    names = {
+        label: handle
+        for axis in axes.flat
+        for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)
+    }
+    place = {"loc": "outside lower center", "ncols": len(names)}  # below, where no curve runs
+    figure.legend(names.values(), names.keys(), fontsize=8, frameon=False, **place)
     figure.suptitle(title, fontsize=11)
     return save(figure, path)

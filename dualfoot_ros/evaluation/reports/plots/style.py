@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# Okabe and Ito's palette.
-FOOT = {"left": "#0072B2", "right": "#D55E00"}
+# Okabe and Ito's palette.  The live page, RViz and Foxglove have the same colours of the feet.
+FOOT = {"left": "#D55E00", "right": "#0072B2"}
 TRUTH = "#A8A8A8"
 MARKER = "#000000"
 GREEN = "#009E73"

@@ -16,9 +16,12 @@ import time
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+import numpy as np
+
 from dualfoot_ros.calibration import WalkCalibration, calibrate_walks, for_feet, median_of
 from dualfoot_ros.calibration.walk.known_points import WalkErrors, walk_errors
 from dualfoot_ros.core import TrackerConfig
+from dualfoot_ros.evaluation import track
 from dualfoot_ros.recording import Correction, Recording
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
 
@@ -29,6 +32,9 @@ EXTRAS: Mapping[str, Mapping[str, object]] = {
     "straight_lines": {"aids.straight_lines": True},
     "magnetic_heading": {"aids.magnetic_heading": True},
 }
+# The rectangles end where they began, turned by a quarter to the right or to the left.
+TURNED = {"rectangle_ccw": -1.0, "rectangle_cw": 1.0}
+APART_M = 0.15  # of the standing feet, assumed at both ends
 Walks = dict[str, Recording]
 
 
@@ -44,6 +50,7 @@ def main() -> int:
     walks = {name: read(args.data / name) for name in FOLDERS}
     given = for_feet(args.accelerometers)
     report("no matrix", walks, given)
+    print_ends("no matrix", walks, given)
     rectangles = {**walks["rectangle_ccw"], **walks["rectangle_cw"]}
     chosen = {name: each for name, each in rectangles.items() if not name.endswith(LEFT_OUT)}
     for what, some in (("figures of eight", walks["figure_eight"]), ("rectangles", chosen)):
@@ -52,6 +59,7 @@ def main() -> int:
         print(f"\nmatrix from {len(some)} {what}, {time.process_time() - begin:.1f} s of CPU")
         print_matrices(fitted)
         report(f"from {what}", walks, fitted.sensors(given))
+        print_ends(f"from {what}", walks, fitted.sensors(given))
     return 0
 
 
@@ -83,6 +91,33 @@ def report(title: str, walks: Mapping[str, Walks], sensors: Mapping[str, Correct
             }
             words = "; ".join(f"{name} {summary(found[name])}" for name in folders)
             print(f"{title}, {method} {aid}: {words}", flush=True)
+
+
+def print_ends(title: str, walks: Mapping[str, Walks], sensors: Mapping[str, Correction]) -> None:
+    """Print by how much each foot, and the point between them, misses where it should end.
+
+    The right foot ends on the marker that it began on, the left one beside it.  Only this shows
+    what a constraint does to the foot that no marker measures.
+    """
+    for method in METHODS:
+        config = TrackerConfig(method=method)
+        for folder, side in TURNED.items():
+            recordings = [each.corrected(sensors) for each in walks[folder].values()]
+            found = [ends(each, config, side) for each in recordings]
+            left, right, between = np.median(found, axis=0)
+            print(
+                f"{title}, {method}: {folder} ends off by {left:.3f} m (left), {right:.3f} m "
+                f"(right), {between:.3f} m (between)",
+                flush=True,
+            )
+
+
+def ends(recording: Recording, config: TrackerConfig, side: float) -> list[float]:
+    """Return the misses (m) of the left foot, of the right one and of the point between them."""
+    tracked = track(recording, config)
+    left, right = (foot.position[-1] - foot.position[0] for foot in (tracked.left, tracked.right))
+    left = left - APART_M * np.array([-side, -1.0, 0.0])  # from beside it to beside it, turned
+    return [float(np.hypot(*miss[:2])) for miss in (left, right, 0.5 * (left + right))]
 
 
 def summary(errors: Iterable[WalkErrors]) -> str:

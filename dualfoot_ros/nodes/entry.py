@@ -55,6 +55,8 @@ def _run(name: str) -> int:
     try:
         node = importlib.import_module(f".{name}", __package__)
     except ModuleNotFoundError as missing:
+        if (missing.name or "").startswith(__package__.partition(".")[0]):
+            raise  # a defect of this package, and no part of ROS
         sys.stderr.write(f"{name}: error: {missing.name} is not installed; {ADVICE}\n")
         return 2
     code: int = node.main()

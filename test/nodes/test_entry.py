@@ -19,3 +19,13 @@ def test_without_ros_an_executable_says_in_a_sentence_what_to_install(node, monk
     said = capsys.readouterr().err
     assert said.startswith(f"{node}: error: rclpy is not installed; a node needs ROS 2")
     assert said.count("\n") == 1
+
+
+def test_a_module_of_this_package_that_is_missing_is_a_defect_and_not_hidden(monkeypatch):
+    def missing(name, package):
+        raise ModuleNotFoundError("No module named 'dualfoot_ros.x'", name="dualfoot_ros.x")
+
+    monkeypatch.setattr(importlib, "import_module", missing)
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    with pytest.raises(ModuleNotFoundError):
+        entry.fusion()

@@ -173,7 +173,7 @@ class _Pass:
         longest = max(1, round(ALIKE_S / float(np.median(self._dt))))
         for first, end in stance_bounds(walk.stance):
             self._samples[first:end] = min(end - first, longest)
-        self._transition = np.eye(STATES)
+        self._transition = np.eye(STATES)  # each sample writes the same blocks of it
         self._added = np.repeat([noise.gyro**2, noise.accelerometer**2], 3)
         self._r, self._v = walk.attitude.copy(), np.zeros(3)
         self._x, self._p = np.zeros(STATES), noise.start(walk.bias_std)
@@ -213,7 +213,8 @@ class _Pass:
         more = (self._columns[k] @ x[M] - x[BG]) * dt
         self._r = r @ self._turn[k] @ (IDENTITY + skew(more))
         self._p = f @ self._p @ f.T
-        self._p.reshape(-1)[: 6 * STATES : STATES + 1] += dt * self._added
+        driven = np.arange(6)
+        self._p[driven, driven] += dt * self._added
 
     def _stand(self, k: int) -> None:
         """Update with a sample of a stance: the pivot of the foot does not move."""

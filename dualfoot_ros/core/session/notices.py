@@ -56,7 +56,8 @@ class Notices:
 
     def _presence(self, notices: int) -> Found:
         """Attend to feet that are without samples, or that have samples again."""
-        walk, found = self._walk, Found()
+        walk = self._walk
+        found: Found = []
         stamp = walk.gait.stamp(walk.space.epoch)
         for foot in range(2):
             if notices & (lay.NOTICE_GONE << foot):
@@ -135,7 +136,8 @@ class Notices:
 
     def _join(self, foot: int, phase: StancePhase, now: int) -> Found:
         """Put a foot that is back beside the other one, where that passed it."""
-        walk, found = self._walk, Found()
+        walk = self._walk
+        found: Found = []
         if walk.absences.of[1 - foot] is Presence.JOINED:
             moment = phase.moment(0.5)
             if not walk.gait.remembers(moment):

@@ -161,7 +161,8 @@ class Session:
 
     def set_pose(self, stamp: int, pose: GivenPose) -> Found:
         """Put the person where the ``pose`` says; return both tracks' turns."""
-        walk, found = self._walk, Found()
+        walk = self._walk
+        found: Found = []
         if self.phase == "standing":
             up_m = float(pose.position[2] - self._origin[2])
             turned = pose.yaw - walk.headings.forward

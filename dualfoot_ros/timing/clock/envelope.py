@@ -102,16 +102,6 @@ class LowerEnvelope:
         above = points[:, 1] - line.height_s - line.skew * (points[:, 0] - line.center_s)
         above = above[above < REACH_S]
         count = len(above)
-        seen = -_quantile(above, SHARE) / math.log(1.0 - SHARE) if count else 0.0
+        seen = -float(np.quantile(above, SHARE)) / math.log(1.0 - SHARE) if count else 0.0
         scale = (2.0 * self._guess_s + count * seen) / (count + 2.0)
         return min(max(scale, SCALE_LIMITS_S[0]), SCALE_LIMITS_S[1])
-
-
-def _quantile(values: FloatArray, share: float) -> float:
-    """Return a quantile as numpy's, which checks and sorts for a dozen cases, gives it."""
-    below, part = divmod(share * (len(values) - 1), 1.0)
-    at, last = int(below), len(values) - 1
-    ordered = np.partition(values, (at, min(at + 1, last)))
-    one, other = float(ordered[at]), float(ordered[min(at + 1, last)])
-    step = other - one
-    return one + step * part if 2.0 * part < 1.0 else other - step * (1.0 - part)

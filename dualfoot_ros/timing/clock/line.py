@@ -28,7 +28,6 @@ from ...core import FloatArray
 
 STEEPEST = 0.05  # |skew| that is looked for
 ROUNDS, NODES, DEPTH = 4, 41, 18.0  # quadrature: refinements, nodes, log density kept
-COUNTED = np.arange(NODES, dtype=np.float64)
 REACH_S = 0.25  # a bin whose fastest arrival is later than this was stalled, and says no more
 FAILED = 0.1  # share of the events that fail
 EDGES = 16  # of them in a row that are reckoned with
@@ -77,12 +76,11 @@ def fit_below(points: FloatArray, scale_s: float, skew_scale: float) -> Line:
     center, lever, low, high = _centered(points)
     first, last = -STEEPEST, STEEPEST
     for _ in range(ROUNDS):
-        skew = _nodes(first, last)
-        delay = high - skew[:, None] * lever
-        height = np.minimum.reduce(delay, axis=1)
-        delay -= height[:, None]
-        np.minimum(delay, REACH_S, out=delay)
-        log_p = -np.add.reduce(delay, axis=1) / scale_s + _prior(skew, skew_scale)
+        skew = np.linspace(first, last, NODES)
+        delayed = high - skew[:, None] * lever
+        height = delayed.min(axis=1)
+        delay = np.minimum(delayed - height[:, None], REACH_S)
+        log_p = -delay.sum(axis=1) / scale_s + _prior(skew, skew_scale)
         first, last = _support(skew, log_p)
     under = scale_s / len(points)  # the height itself is exponential below the highest line
     return _mean(center, low, skew, log_p, height - under, np.full(NODES, under**2))
@@ -102,7 +100,7 @@ def fit_between(
     wide = 6.0 * math.sqrt(near.skew_var) + 2.0 * interval_s / max(float(np.ptp(lever)), 1.0)
     first, last = near.skew - wide, near.skew + wide
     for _ in range(ROUNDS):
-        skew = _nodes(first, last)
+        skew = np.linspace(first, last, NODES)
         top = (high - skew[:, None] * lever).min(axis=1)
         mass, height, square = _strips(top, least - skew[:, None] * wait_lever)
         log_p = np.log(mass) + _prior(skew, skew_scale)
@@ -136,20 +134,13 @@ def _centered(points: FloatArray) -> tuple[float, FloatArray, float, FloatArray]
     return center, points[:, 0] - center, low, points[:, 1] - low
 
 
-def _nodes(first: float, last: float) -> FloatArray:
-    """Return NODES slopes from ``first`` to ``last``, the bits of numpy's linspace."""
-    nodes = COUNTED * ((last - first) / (NODES - 1)) + first
-    nodes[-1] = last
-    return nodes
-
-
 def _prior(skew: FloatArray, scale: float) -> FloatArray:
     return -np.log1p((skew / scale) ** 2)
 
 
 def _support(skew: FloatArray, log_p: FloatArray) -> tuple[float, float]:
     """Return the skews between which the density is not negligible."""
-    good = (log_p > np.maximum.reduce(log_p) - DEPTH).nonzero()[0]
+    good = np.flatnonzero(log_p > log_p.max() - DEPTH)
     return float(skew[max(good[0] - 1, 0)]), float(skew[min(good[-1] + 1, len(skew) - 1)])
 
 

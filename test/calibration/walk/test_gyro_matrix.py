@@ -19,7 +19,7 @@ from dualfoot_ros.timing import align
 
 from .simulated import PIVOT, true_elements, walks
 
-SEEDS = range(3)
+SEEDS = range(4)
 FEET = ("left", "right")
 
 
@@ -91,7 +91,7 @@ def test_turns_to_both_sides_are_counted():
 
 
 def test_a_false_stance_in_the_swing_hardly_changes_the_fit():
-    walk = walks(2)["left"]
+    walk = walks(3)["left"]
     stance = walk.stance.copy()
     swing = np.flatnonzero(~stance)[60 * 5]
     stance[swing : swing + 5] = True

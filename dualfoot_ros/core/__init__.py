@@ -2,7 +2,6 @@
 
 from .alignment import BiasPrior, bias_after, stillness
 from .config import GROUPS, TrackerConfig, all_specs, method_parameters, nested
-from .config_groups import AlignmentConfig, IncrementsConfig, NoiseConfig
 from .constraints import METHODS
 from .errors import (
     AlignmentError,
@@ -17,6 +16,7 @@ from .errors import (
     SourceError,
     TimingError,
 )
+from .groups import AlignmentConfig, IncrementsConfig, NoiseConfig
 from .parameters import Parameters, ParameterSpec, check, parameter
 from .person import (
     PersonEstimate,

@@ -6,7 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, Self
 
-from .config_groups import (
+from .constraints import METHODS
+from .errors import ConfigError
+from .groups import (
     AidsConfig,
     AlignmentConfig,
     FloorConfig,
@@ -17,8 +19,6 @@ from .config_groups import (
     StanceConfig,
     ZuptConfig,
 )
-from .constraints import METHODS
-from .errors import ConfigError
 from .parameters import Parameters, ParameterSpec, parameter
 from .samples.units import STANDARD_GRAVITY
 

@@ -22,7 +22,7 @@ from dualfoot_ros.core.alignment import (
     WindowSlider,
     stillness,
 )
-from dualfoot_ros.core.config_groups import AlignmentConfig
+from dualfoot_ros.core.groups import AlignmentConfig
 
 from .harness import (
     GRAVITY,

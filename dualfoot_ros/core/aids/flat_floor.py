@@ -16,8 +16,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from ..config_groups import AidsConfig
 from ..constraints.method import Gait, Method, Request, StancePhase
+from ..groups import AidsConfig
 from ..joint_estimate import JointEstimate, Outcome
 from ..kernel.layout import position_row
 from ..results.events import EventKind

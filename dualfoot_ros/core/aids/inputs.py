@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..config_groups import AidsConfig
 from ..constraints.method import Method
 from ..errors import ConfigError
+from ..groups import AidsConfig
 from ..refusals import Refusal
 from ..results.events import FEET
 from ..samples.series import FieldSeries, FloatArray

@@ -32,8 +32,8 @@ from functools import partial
 
 import numpy as np
 
-from ..config_groups import AidsConfig
 from ..constraints.method import Gait, Method, Request, StancePhase
+from ..groups import AidsConfig
 from ..joint_estimate import JointEstimate, Outcome, nothing_done
 from ..kernel.layout import attitude_row
 from ..refusals import Refusal

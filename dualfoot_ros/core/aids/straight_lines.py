@@ -26,8 +26,8 @@ from typing import Any
 
 import numpy as np
 
-from ..config_groups import AidsConfig
 from ..constraints.method import Gait, Method, Request, StancePhase
+from ..groups import AidsConfig
 from ..joint_estimate import JointEstimate, Outcome
 from ..kernel.layout import attitude_row
 from ..results.events import EventKind

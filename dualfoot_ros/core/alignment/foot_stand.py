@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..config_groups import AlignmentConfig
+from ..groups import AlignmentConfig
 from ..samples.series import FloatArray
 from .window import Window
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..config_groups import AlignmentConfig
+from ..groups import AlignmentConfig
 from ..samples.series import FloatArray
 
 SLIDES = 25  # steps in which a window moves on by its length

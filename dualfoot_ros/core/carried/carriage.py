@@ -8,9 +8,9 @@ from functools import partial
 
 import numpy as np
 
-from ..config_groups import FloorConfig
 from ..constraints.method import Request
 from ..gait_history import GaitHistory
+from ..groups import FloorConfig
 from ..joint_estimate import Outcome
 from ..kernel import Workspace
 from ..results.events import Event, EventKind

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..config_groups import HeadingConfig
+from ..groups import HeadingConfig
 from ..kernel import Engine, Workspace
 from ..kernel import layout as lay
 from ..results.events import FEET, Event, EventKind

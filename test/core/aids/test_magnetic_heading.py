@@ -23,7 +23,7 @@ from dualfoot_ros.core import (
 from dualfoot_ros.core.aids import FieldLog, MagneticHeading
 from dualfoot_ros.core.aids.field import NavigationField, mean_field
 from dualfoot_ros.core.aids.magnetic_heading import heading_row
-from dualfoot_ros.core.config_groups import AidsConfig
+from dualfoot_ros.core.groups import AidsConfig
 from dualfoot_ros.core.results.events import FEET
 from dualfoot_ros.simulation import MagnetometerConfig, SensorConfig, WalkConfig, simulate
 from dualfoot_ros.timing import align

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core.aids import WORN, Barometer, FlatFloor, PressureLog, height_pressure
-from dualfoot_ros.core.config_groups import AidsConfig
+from dualfoot_ros.core.groups import AidsConfig
 
 from ..constraints.joint import MadeUpGait, apart, assert_dense_update, stance, states
 

@@ -3,8 +3,8 @@ from rcl_interfaces.msg import ParameterType
 from rclpy.parameter import Parameter
 
 from dualfoot_ros.core.config import TrackerConfig, all_specs
-from dualfoot_ros.core.config_groups import ZuptConfig
 from dualfoot_ros.core.errors import ConfigError
+from dualfoot_ros.core.groups import ZuptConfig
 from dualfoot_ros.nodes.ros.declared_parameters import COLUMNS, _format, declare, descriptor, group
 
 SPECS = {spec.name: spec for spec in all_specs()}

@@ -1,7 +1,7 @@
 """The offset of two clocks is found from how the feet moved."""
 
 from dataclasses import replace
-from itertools import groupby
+from itertools import cycle, groupby
 
 import numpy as np
 import pytest
@@ -170,17 +170,19 @@ def test_walking_is_not_taken_for_a_shake(walk):
 
 
 def test_real_walks_on_one_clock_are_found_to_be(dual_feet):
+    """Each walk is moved in one of three ways, and so is each folder."""
     errors = []
+    ways = cycle(((3.217, (0.0, 0.0)), (-47.3, (5.0, 0.0)), (600.0, (0.0, 7.0))))
     for folder in ("rectangle_ccw", "rectangle_cw", "figure_eight", "running_track"):
         for path in sorted((dual_feet / folder).glob("*.mat")):
             recording = import_recording(ImportOptions(sources=(path,)))
-            for shift, begins in ((3.217, (0.0, 0.0)), (-47.3, (5.0, 0.0)), (600.0, (0.0, 7.0))):
-                left, right = cut(recording.left, begins[0]), cut(recording.right, begins[1])
-                moved = replace(right, stamp_ns=right.stamp_ns + round(shift * 1e9))
-                found = offset_by_motion(left, moved)
-                assert found.method == "motion"
-                errors.append(error_ms(found, moved, round(shift * 1e9)))
-    assert len(errors) >= 60
+            shift, begins = next(ways)
+            left, right = cut(recording.left, begins[0]), cut(recording.right, begins[1])
+            moved = replace(right, stamp_ns=right.stamp_ns + round(shift * 1e9))
+            found = offset_by_motion(left, moved)
+            assert found.method == "motion"
+            errors.append(error_ms(found, moved, round(shift * 1e9)))
+    assert len(errors) >= 27
     assert np.sqrt(np.mean(np.square(errors))) < 7.0
     assert np.abs(errors).max() < 15.0
 

@@ -29,6 +29,7 @@ from .person import (
     TrustTracker,
 )
 from .refusals import Refusal, refusal_of
+from .results.covariances import Covariances
 from .results.events import FEET, Event, EventKind
 from .results.passings import (
     MID_STANCE,
@@ -48,7 +49,7 @@ from .results.payloads import (
     Ride,
     YawTurn,
 )
-from .results.rows import clean_stance, to_trajectory, turn_rows
+from .results.rows import clean_stance, turn_rows
 from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stance_middles
 from .results.update import FootEstimate, PedestrianEstimate, Update
 from .rotation import (
@@ -104,6 +105,7 @@ __all__ = [
     "BoolArray",
     "CalibrationError",
     "ConfigError",
+    "Covariances",
     "Details",
     "DistanceLimit",
     "DualFootError",
@@ -179,7 +181,6 @@ __all__ = [
     "stance_passings",
     "stillness",
     "swing_passings",
-    "to_trajectory",
     "turn_quaternions",
     "turn_rows",
     "yaw_quaternion",

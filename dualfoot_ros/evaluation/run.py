@@ -192,7 +192,7 @@ def _unconstrained_findings(samples: PairedSamples, config: TrackerConfig) -> It
     """
     alone = unconstrained_config(config)
     if config != alone:
-        yield from walk_findings(track_walk(samples, alone))
+        yield from walk_findings(track_walk(samples, alone, covariances=False))
 
 
 def _walk_findings(config: TrackerConfig, trajectory: Trajectory) -> Iterator[Finding]:

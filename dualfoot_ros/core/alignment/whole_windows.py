@@ -77,7 +77,7 @@ def _spans(stamp_ns: IntArray, length_ns: int) -> tuple[IntArray, IntArray]:
 
 
 def _moments(block: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return mean and scatter (W, 6) of samples (N, W, 6), summed in the order of ``Window.of``."""
+    """Return mean and scatter (W, 6) of samples (N, W, 6), summed as ``Window.of`` does."""
     mean = block.sum(axis=0) / len(block)
     off = block - mean
     return mean, np.sqrt((off * off).sum(axis=0) / len(block))

@@ -12,8 +12,8 @@ from .results.events import Event, EventKind
 from .results.row_store import RowStore
 from .results.trajectory import Trajectory
 from .results.update import Update
-from .samples.pair_gate import next_irregular, regular_samples
-from .samples.series import BoolArray, FloatArray, ImuPair, IntArray
+from .samples.pair_gate import good_values, next_irregular, regular_samples
+from .samples.series import BoolArray, FloatArray, ImuPair, ImuSeries, IntArray, stack_pairs
 from .session import Session
 
 STRETCH = 1 << 12  # samples that are run at once: their rows stay in the cache of the processor
@@ -22,10 +22,10 @@ STRETCH = 1 << 12  # samples that are run at once: their rows stay in the cache 
 class BatchRun:
     """The rows and events that a recording gives, as far as it has been run."""
 
-    def __init__(self, stamps: IntArray, values: FloatArray, covariances: bool = True) -> None:
-        """Prepare to run pairs with stamps (N,) ns and values (N, 12)."""
-        count = len(stamps)
-        self._stamps, self._values = stamps, values
+    def __init__(self, left: ImuSeries, right: ImuSeries, covariances: bool = True) -> None:
+        """Prepare to run two series of equal stamps."""
+        stamps, count = left.stamp_ns, len(left)
+        self._stamps, self._series = stamps, (left, right)
         self._dts = np.diff(stamps, prepend=stamps[:1]) * 1e-9
         self._rows, self._store = np.zeros((STRETCH, lay.OUT)), RowStore(count, covariances)
         self._kept = np.zeros(count, dtype=bool)
@@ -55,12 +55,19 @@ class BatchRun:
         """Return the first sample from ``k`` on that is no regular one of ``session``."""
         if self._stops is None:
             longest_ns = session.holes.longest_ns
-            self._stops = next_irregular(regular_samples(self._stamps, self._values, longest_ns))
+            spans = [slice(at, at + STRETCH) for at in range(0, len(self._stamps), STRETCH)]
+            good = np.concatenate([good_values(self._values(span)) for span in spans])
+            self._stops = next_irregular(regular_samples(self._stamps, good, longest_ns))
         return int(self._stops[k])
+
+    def _values(self, span: slice) -> FloatArray:
+        """Return the values (K, 12) of some pairs."""
+        left, right = self._series
+        return stack_pairs(left[span], right[span])
 
     def _run_stretch(self, stream: PairStream, session: Session, start: int, stop: int) -> None:
         span, rows = slice(start, stop), self._rows[: stop - start]
-        samples = self._stamps[span], self._dts[span], self._values[span]
+        samples = self._stamps[span], self._dts[span], self._values(span)
         self._put_single()
         put = 0
         for row, found in session.steps(*samples, (0, stop - start), rows):
@@ -72,7 +79,8 @@ class BatchRun:
         self._kept[span] = stream.went_on(rows, int(self._stamps[stop - 1]))
 
     def _add(self, stream: PairStream, k: int) -> None:
-        update = stream.add(ImuPair(int(self._stamps[k]), self._values[k]))
+        values = self._values(slice(k, k + 1))[0]
+        update = stream.add(ImuPair(int(self._stamps[k]), values))
         if update.refused is None:
             self._taken.append(k)
         if any(event.kind is EventKind.RESET for event in update.announced):

@@ -22,7 +22,7 @@ from .samples.series import (
     ImuPair,
     ImuSeries,
     PressureSeries,
-    stack_pairs,
+    require_equal_stamps,
 )
 from .session import given_pose
 from .snapshot import dump, restore
@@ -215,7 +215,7 @@ class DualFootTracker:
         ConfigError
             When ``pressure`` or ``fields`` has another key.
         """
-        values = stack_pairs(left, right)
+        require_equal_stamps(left, right)
         for foot, imu in zip(FEET, (left, right), strict=True):
             if imu.increments is not None:
                 self.declare_increments(foot, imu.increments)
@@ -225,7 +225,7 @@ class DualFootTracker:
                 self._inputs.take_pressure(worn, int(stamp), float(pascal))
         for foot, field in (fields_of(left, right) if fields is None else fields).items():
             self._inputs.take_fields(foot, field)
-        batch = BatchRun(left.stamp_ns, values, covariances)
+        batch = BatchRun(left, right, covariances)
         batch.run(self._stream)
         if batch.is_empty:
             raise AlignmentError(self._no_start(left))

@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from dualfoot_ros.core import FootTrajectory, IntArray, PoseSeries
+from dualfoot_ros.core import Covariances, FootTrajectory, IntArray, PoseSeries
 from dualfoot_ros.evaluation import pair_samples, track_samples, truth_of
 from dualfoot_ros.evaluation.gait import (
     PARAMETERS,
@@ -98,7 +98,8 @@ def _true_track(truth: PoseSeries, stances: IntArray) -> FootTrajectory:
     stance = np.zeros(len(stamps), dtype=bool)
     for first, last in np.searchsorted(stamps, stances):
         stance[first:last] = True
-    speed, none = np.zeros((len(stamps), 3)), np.zeros((len(stamps), 3, 3))
+    speed = np.zeros((len(stamps), 3))
+    none = Covariances.of(np.zeros((len(stamps), 3, 3)))
     return FootTrajectory(
         stamps, truth.position, speed, truth.quaternion, stance, none, none, none
     )

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..core import FEET, ConfigError, RecordingError
 from ..inspection import require_usable
-from ..recording import STORAGES, Recording, Topics, find_topics, read_bag
-from ..recording.importers import is_export
+from ..recording import METADATA, STORAGES, Recording, Topics, find_topics, read_bag
 from .printing import print_note, progress
 from .table_options import add_intake_arguments, import_in_memory
 
@@ -192,7 +191,16 @@ def is_bag(args: argparse.Namespace) -> bool:
     """
     if args.bag is None and len(_files(args)) != len(FEET):
         raise RecordingError("no recording given; allowed is BAG, or --left FILE --right FILE")
-    return args.bag is not None and not _files(args) and not is_export(Path(args.bag))
+    return args.bag is not None and not _files(args) and not _is_export(Path(args.bag))
+
+
+def _is_export(path: Path) -> bool:
+    """Return whether a file or folder is to be imported; a folder with metadata never is."""
+    if (path / METADATA).exists():
+        return False
+    from ..recording.importers import is_export  # many modules, which few bags need
+
+    return is_export(path)
 
 
 def load_bag(path: str, args: argparse.Namespace) -> Recording:

@@ -125,12 +125,12 @@ def run(args: argparse.Namespace) -> int:
     calibration = for_feet(args.calibration)
     memory = BiasMemory() if args.bias_memory is None else BiasMemory.load(args.bias_memory)
     config = tracker_config(args)
-    recording = load_bag(args.bag, args)
+    recordings = [load_bag(args.bag, args)]
     notes: tuple[str, ...] = ()
     if args.self_calibrate:
-        calibration, notes = self_calibration(args, recording, config, calibration)
+        calibration, notes = self_calibration(args, recordings[0], config, calibration)
     options = replace(_options(args, calibration), priors=memory.priors())
-    result = evaluation.run(recording, config, options)
+    result = evaluation.run(recordings.pop(), config, options)  # its samples are needed no more
     result = replace(result, notes=(*notes, *result.notes))
     metrics = {
         "bag": recording_name(args),

@@ -94,10 +94,10 @@ def _inspect_walk(contents: Contents) -> None:
     with status("looking for stances"):
         try:
             samples = pair_samples(recording)
-            alone = track_walk(samples, unconstrained_config())
+            alone = track_walk(samples, unconstrained_config(), covariances=False)
             stances, findings = stance_statistics(alone), [*walk_findings(alone)] if both else []
-            del alone  # before the next one: a walk of an hour takes most of a gigabyte
-            coupled = track_walk(samples)
+            del alone  # before the next one: a walk of an hour takes some hundred megabytes
+            coupled = track_walk(samples, covariances=False)
             findings += [*coupled_findings(coupled)] if both else []
             findings += ride_findings(coupled.events)
         except DualFootError as error:

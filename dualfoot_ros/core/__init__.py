@@ -29,6 +29,7 @@ from .person import (
     TrustTracker,
 )
 from .refusals import Refusal, refusal_of
+from .results.covariances import Covariances
 from .results.events import FEET, Event, EventKind
 from .results.passings import (
     MID_STANCE,
@@ -48,14 +49,16 @@ from .results.payloads import (
     Ride,
     YawTurn,
 )
-from .results.rows import clean_stance, to_trajectory, turn_rows
+from .results.rows import clean_stance, turn_rows
 from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stance_middles
 from .results.update import FootEstimate, PedestrianEstimate, Update
 from .rotation import (
     about_z,
     mean_angle,
+    quaternion_matrices,
     quaternion_matrix,
     quaternion_yaw,
+    rotate_each,
     skew,
     turn_quaternions,
     yaw_quaternion,
@@ -102,6 +105,7 @@ __all__ = [
     "BoolArray",
     "CalibrationError",
     "ConfigError",
+    "Covariances",
     "Details",
     "DistanceLimit",
     "DualFootError",
@@ -166,16 +170,17 @@ __all__ = [
     "method_parameters",
     "nested",
     "parameter",
+    "quaternion_matrices",
     "quaternion_matrix",
     "quaternion_yaw",
     "refusal_of",
+    "rotate_each",
     "skew",
     "stance_bounds",
     "stance_middles",
     "stance_passings",
     "stillness",
     "swing_passings",
-    "to_trajectory",
     "turn_quaternions",
     "turn_rows",
     "yaw_quaternion",

@@ -2,40 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from .kernel import layout as lay
 from .pair_stream import PairStream
 from .results.events import Event, EventKind
-from .results.rows import turn_rows
+from .results.row_store import RowStore
+from .results.trajectory import Trajectory
 from .results.update import Update
-from .samples.pair_gate import next_irregular, regular_samples
-from .samples.series import FloatArray, ImuPair, IntArray
+from .samples.pair_gate import good_values, next_irregular, regular_samples
+from .samples.series import BoolArray, FloatArray, ImuPair, ImuSeries, IntArray, stack_pairs
 from .session import Session
+
+STRETCH = 1 << 12  # samples that are run at once: their rows stay in the cache of the processor
 
 
 class BatchRun:
     """The rows and events that a recording gives, as far as it has been run."""
 
-    def __init__(self, stamps: IntArray, values: FloatArray) -> None:
-        """Prepare to run pairs with stamps (N,) ns and values (N, 12)."""
-        count = len(stamps)
-        self._stamps, self._values = stamps, values
+    def __init__(self, left: ImuSeries, right: ImuSeries, covariances: bool = True) -> None:
+        """Prepare to run two series of equal stamps."""
+        stamps, count = left.stamp_ns, len(left)
+        self._stamps, self._series = stamps, (left, right)
         self._dts = np.diff(stamps, prepend=stamps[:1]) * 1e-9
-        self._out = np.zeros((count, lay.OUT))
+        self._rows, self._store = np.zeros((STRETCH, lay.OUT)), RowStore(count, covariances)
         self._kept = np.zeros(count, dtype=bool)
         self._stops: IntArray | None = None
         self._taken: list[int] = []
+        self._single: dict[int, FloatArray] = {}  # rows that came one by one, by their places
         self.events: list[Event] = []
 
-    def run(self, stream: PairStream) -> tuple[IntArray, FloatArray]:
-        """Feed everything to ``stream``; return the stamps (M,) and rows (M, OUT) it gave."""
+    def run(self, stream: PairStream) -> None:
+        """Feed everything to ``stream`` and keep what it gives."""
         k, count = 0, len(self._stamps)
         while k < count:
             session = stream.walking
-            stop = k if session is None else self._next_stop(session, k)
+            stop = k if session is None else min(self._next_stop(session, k), k + STRETCH)
             if session is not None and stop > k:
                 self._run_stretch(stream, session, k, stop)
                 k = stop
@@ -46,24 +50,37 @@ class BatchRun:
             late = stream.start_late(int(self._stamps[self._taken[-1]]))
             if late is not None:
                 self._keep(late)
-        return self._rows()
 
     def _next_stop(self, session: Session, k: int) -> int:
         """Return the first sample from ``k`` on that is no regular one of ``session``."""
         if self._stops is None:
             longest_ns = session.holes.longest_ns
-            self._stops = next_irregular(regular_samples(self._stamps, self._values, longest_ns))
+            spans = [slice(at, at + STRETCH) for at in range(0, len(self._stamps), STRETCH)]
+            good = np.concatenate([good_values(self._values(span)) for span in spans])
+            self._stops = next_irregular(regular_samples(self._stamps, good, longest_ns))
         return int(self._stops[k])
 
+    def _values(self, span: slice) -> FloatArray:
+        """Return the values (K, 12) of some pairs."""
+        left, right = self._series
+        return stack_pairs(left[span], right[span])
+
     def _run_stretch(self, stream: PairStream, session: Session, start: int, stop: int) -> None:
-        out = self._out
-        steps = session.steps(self._stamps, self._dts, self._values, (start, stop), out)
-        for row, found in steps:
-            self._note(row, found)
-        self._kept[start:stop] = stream.went_on(out[start:stop], int(self._stamps[stop - 1]))
+        span, rows = slice(start, stop), self._rows[: stop - start]
+        samples = self._stamps[span], self._dts[span], self._values(span)
+        self._put_single()
+        put = 0
+        for row, found in session.steps(*samples, (0, stop - start), rows):
+            if any(event.kind is EventKind.HEADING for event in found):
+                self._store.put(slice(start + put, start + row + 1), rows[put : row + 1])
+                put = row + 1
+            self._note(start + row, found)
+        self._store.put(slice(start + put, stop), rows[put:])
+        self._kept[span] = stream.went_on(rows, int(self._stamps[stop - 1]))
 
     def _add(self, stream: PairStream, k: int) -> None:
-        update = stream.add(ImuPair(int(self._stamps[k]), self._values[k]))
+        values = self._values(slice(k, k + 1))[0]
+        update = stream.add(ImuPair(int(self._stamps[k]), values))
         if update.refused is None:
             self._taken.append(k)
         if any(event.kind is EventKind.RESET for event in update.announced):
@@ -77,20 +94,35 @@ class BatchRun:
         updates = (*update.earlier, update)
         for each, row in zip(updates, self._taken[-len(updates) :], strict=False):
             if each.row is not None:
-                self._out[row], self._kept[row] = each.row, True
+                self._single[row], self._kept[row] = each.row, True
+                if len(self._single) == STRETCH:
+                    self._put_single()
             self._note(row, each.announced)
 
     def _note(self, row: int, found: Sequence[Event]) -> None:
         """Keep the events of a row; a heading turns the rows before it."""
         for event in found:
             if event.kind is EventKind.HEADING:
-                turn_rows(self._out[:row], event)
+                self._put_single()
+                self._store.turn(row, event)
         self.events.extend(found)
 
-    def _rows(self) -> tuple[IntArray, FloatArray]:
+    def _put_single(self) -> None:
+        if self._single:
+            self._store.put(list(self._single), np.array(list(self._single.values())))
+            self._single.clear()
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether no row is kept."""
+        return not self._kept.any()
+
+    def trajectory(self, counters: Mapping[str, int], method: str) -> Trajectory:
         """Return what is kept, without a copy where that is all from some row on."""
-        kept = self._kept
-        first = int(np.argmax(kept)) if kept.any() else len(kept)
-        if kept[first:].all():
-            return self._stamps[first:], self._out[first:]
-        return self._stamps[kept], self._out[kept]
+        first = int(np.argmax(self._kept))
+        keep: BoolArray | slice = slice(first, len(self._kept))
+        if not self._kept[keep].all():
+            keep = self._kept
+        self._put_single()
+        events = tuple(self.events)
+        return self._store.trajectory(self._stamps[keep], keep, events, counters, method)

@@ -62,6 +62,28 @@ def quaternion_matrix(quaternion: FloatArray) -> FloatArray:
     )
 
 
+def quaternion_matrices(quaternions: FloatArray) -> FloatArray:
+    """Return R_nb (N, 3, 3) of quaternions (N, 4) of any length.
+
+    The sums are those of ``scipy.spatial.transform.Rotation``, in its order, without loading it.
+    """
+    x, y, z, w = quaternions.T
+    x, y, z, w = np.array([x, y, z, w]) / np.sqrt(x * x + y * y + z * z + w * w)
+    xx, yy, zz, ww = x * x, y * y, z * z, w * w
+    rows = (
+        (xx - yy - zz + ww, 2 * (x * y - z * w), 2 * (x * z + y * w)),
+        (2 * (x * y + z * w), -xx + yy - zz + ww, 2 * (y * z - x * w)),
+        (2 * (x * z - y * w), 2 * (y * z + x * w), -xx - yy + zz + ww),
+    )
+    return np.stack([np.stack(row, axis=1) for row in rows], axis=1)
+
+
+def rotate_each(vectors: FloatArray, rotations: FloatArray) -> FloatArray:
+    """Return vectors (N, 3), each rotated by its own of ``rotations`` (N, 3, 3)."""
+    rotated: FloatArray = np.einsum("ijk,ik->ij", rotations, vectors)
+    return rotated
+
+
 def skew(vector: FloatArray) -> FloatArray:
     """Return the matrix (3, 3) of the cross product with ``vector`` (3,) from the left."""
     x, y, z = vector.tolist()

@@ -13,7 +13,6 @@ from .errors import AlignmentError, ConfigError, SnapshotError
 from .pair_stream import PairStream
 from .results.events import FEET
 from .results.payloads import Reason
-from .results.rows import to_trajectory
 from .results.trajectory import Trajectory
 from .results.update import Update
 from .samples.increments import Increments
@@ -23,7 +22,7 @@ from .samples.series import (
     ImuPair,
     ImuSeries,
     PressureSeries,
-    stack_pairs,
+    require_equal_stamps,
 )
 from .session import given_pose
 from .snapshot import dump, restore
@@ -197,12 +196,15 @@ class DualFootTracker:
         right: ImuSeries,
         pressure: Mapping[str, PressureSeries] | None = None,
         fields: Mapping[str, FieldSeries] | None = None,
+        *,
+        covariances: bool = True,
     ) -> Trajectory:
         """Track two series with equal stamps; the same bits as `add`, one by one.
 
         ``pressure`` is air pressure by "left", "right" or "both", for the barometer aid;
         ``fields`` the magnetic field by "left" or "right" as it was measured, for the magnetic
-        heading (default: that of the series).
+        heading (default: that of the series).  Without ``covariances`` the trajectory needs a
+        third of the memory, and has nan in their place.
 
         Raises
         ------
@@ -213,7 +215,7 @@ class DualFootTracker:
         ConfigError
             When ``pressure`` or ``fields`` has another key.
         """
-        values = stack_pairs(left, right)
+        require_equal_stamps(left, right)
         for foot, imu in zip(FEET, (left, right), strict=True):
             if imu.increments is not None:
                 self.declare_increments(foot, imu.increments)
@@ -223,11 +225,11 @@ class DualFootTracker:
                 self._inputs.take_pressure(worn, int(stamp), float(pascal))
         for foot, field in (fields_of(left, right) if fields is None else fields).items():
             self._inputs.take_fields(foot, field)
-        batch = BatchRun(left.stamp_ns, values)
-        stamps, rows = batch.run(self._stream)
-        if not len(stamps):
+        batch = BatchRun(left, right, covariances)
+        batch.run(self._stream)
+        if batch.is_empty:
             raise AlignmentError(self._no_start(left))
-        return to_trajectory(stamps, rows, tuple(batch.events), self.counters, self.config.method)
+        return batch.trajectory(self.counters, self.config.method)
 
     def _no_start(self, left: ImuSeries) -> str:
         if self._stream.alignment.finish() is not None:

@@ -10,6 +10,7 @@ from ..core import FloatArray, FootTrajectory, IntArray, Trajectory, quaternion_
 from .frames.association import Footfalls, seconds
 from .gait import forward_axis
 
+BLOCK = 1 << 14  # epochs whose matrices are made at once
 CHI2_95_PLANE = 5.991
 """95 % quantile of chi-square with two degrees of freedom."""
 
@@ -52,10 +53,6 @@ def person_track(trajectory: Trajectory) -> PersonTrack:
     """Return the person's track of both feet."""
     feet = trajectory.left, trajectory.right
     left, right = feet
-    mean = (left.position_covariance + right.position_covariance) / 2
-    # Var((l + r) / 2) = (P_l + P_r) / 2 - Var(l - r) / 4; without the latter, an upper bound.
-    joint = mean - trajectory.relative_covariance / 4
-    covariance = np.where(np.isnan(joint), mean, joint)
     falls = [Footfalls.of(foot) for foot in feet]
     walked = [f.walked(foot.position, foot.stamp_ns) for f, foot in zip(falls, feet, strict=True)]
     floors = [_held(foot, f, foot.position[:, 2]) for f, foot in zip(falls, feet, strict=True)]
@@ -63,11 +60,26 @@ def person_track(trajectory: Trajectory) -> PersonTrack:
     return PersonTrack(
         stamp_ns=left.stamp_ns,
         position=(left.position + right.position) / 2,
-        covariance=covariance,
+        covariance=_covariance(trajectory),
         heading=_mean_heading(*headings),
         floor_m=(floors[0] + floors[1]) / 2,
         walked_m=(walked[0] + walked[1]) / 2,
     )
+
+
+def _covariance(trajectory: Trajectory) -> FloatArray:
+    """Return the covariance (N, 3, 3) m^2 of the middle between the feet, some epochs at a time.
+
+    Var((l + r) / 2) = (P_l + P_r) / 2 - Var(l - r) / 4; without the latter, an upper bound.
+    """
+    left, right = trajectory.left.position_covariance, trajectory.right.position_covariance
+    found = np.empty(left.shape)
+    for first in range(0, len(left), BLOCK):
+        rows = slice(first, first + BLOCK)
+        mean = (left[rows] + right[rows]) / 2
+        joint = mean - trajectory.relative_covariance[rows] / 4
+        found[rows] = np.where(np.isnan(joint), mean, joint)
+    return found
 
 
 def _held(foot: FootTrajectory, falls: Footfalls, values: FloatArray) -> FloatArray:

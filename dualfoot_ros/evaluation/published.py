@@ -10,11 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from ..core import (
     FEET,
+    Covariances,
     EvaluationError,
     Event,
     EventKind,
@@ -23,7 +25,6 @@ from ..core import (
     Trajectory,
     clean_stance,
 )
-from .frames.association import cut
 
 
 def published_trajectory(
@@ -65,9 +66,8 @@ def published_trajectory(
         for index, foot in enumerate(FEET)
     ]
     start_ns = int(left.stamp_ns[0])
-    return Trajectory(
-        tracks[0], tracks[1], relative_covariance, kept, dict(counters or {}), start_ns, method
-    )
+    relative = Covariances.of(relative_covariance)
+    return Trajectory(tracks[0], tracks[1], relative, kept, dict(counters or {}), start_ns, method)
 
 
 def _since_reset(events: Iterable[Event]) -> tuple[Event, ...]:
@@ -90,9 +90,9 @@ def _apply_heading(
     """
     track, turn = feet[event.foot], event.turn
     before = track.stamp_ns < event.detected_ns
-    turned = cut(track, before).turned(turn)
-    feet[event.foot] = _joined(turned, cut(track, ~before))
-    relative = relative.copy()
+    turned = track.cut(before).turned(turn)
+    feet[event.foot] = _joined(turned, track.cut(~before))
+    relative = np.array(relative)
     if not turn.joint:
         relative[before] += turned.position_covariance - track.position_covariance[before]
     elif event.foot == FEET[0]:
@@ -101,7 +101,7 @@ def _apply_heading(
 
 
 def _joined(first: FootTrajectory, then: FootTrajectory) -> FootTrajectory:
-    parts = {
+    parts: dict[str, Any] = {
         name: np.concatenate([value, vars(then)[name]]) for name, value in vars(first).items()
     }
     return replace(first, **parts)

@@ -31,7 +31,7 @@ from ..inspection import (
 from ..recording import Correction, Recording, Reference
 from ..settings import flat, load_config
 from .evaluate import Evaluation, evaluate
-from .frames.gauge import Options
+from .frames.gauge import Options, Truth
 from .notes import config_notes
 from .track import PairedSamples, pair_samples, track_walk, truth_of
 
@@ -100,7 +100,9 @@ def run(
     findings = check_usable(recording, allow_not_finite=options.allow_not_finite)
     if options.feet != "both":
         findings = tuple(f for f in findings if f.kind is not FindingKind.MISSING)
-    return run_checked(recording, chosen, options, findings)
+    walk = _Walk.of(recording, chosen, options)
+    del recording  # paired: where the caller has let go of it too, its memory is free
+    return _run_walk(walk, chosen, options, findings)
 
 
 def run_checked(
@@ -110,25 +112,55 @@ def run_checked(
     findings: Sequence[Finding] = (),
 ) -> Evaluation:
     """Pair, track and evaluate a recording that was found usable, with these ``findings``."""
-    recording = _prepare(recording, options)
-    begin = time.process_time()
-    samples = pair_samples(recording)
-    run_s = time.process_time() - begin
-    on_both = options.check_feet and _has_both_feet(recording, config)
-    alone = list(_unconstrained_findings(samples, config)) if on_both else []
+    return _run_walk(_Walk.of(recording, config, options), config, options, findings)
+
+
+@dataclass
+class _Walk:
+    """What is taken of a recording: its samples in pairs, and what is known of the walk.
+
+    ``paired_s`` is the CPU time of pairing, s; ``on_both`` says that the feet are to be compared.
+    """
+
+    samples: PairedSamples | None
+    truth: Truth | None
+    reference: Reference | None
+    on_both: bool
+    paired_s: float
+
+    @classmethod
+    def of(cls, recording: Recording, config: TrackerConfig, options: RunOptions) -> _Walk:
+        """Pair the samples of a recording, calibrated where ``options`` say so."""
+        recording = _prepare(recording, options)
+        begin = time.process_time()
+        samples = pair_samples(recording)
+        paired_s = time.process_time() - begin
+        on_both = options.check_feet and _has_both_feet(recording, config)
+        return cls(samples, truth_of(recording), recording.reference, on_both, paired_s)
+
+    def take_samples(self) -> PairedSamples:
+        """Return the samples, and keep them no longer."""
+        samples, self.samples = self.samples, None
+        assert samples is not None
+        return samples
+
+
+def _run_walk(
+    walk: _Walk, config: TrackerConfig, options: RunOptions, findings: Sequence[Finding]
+) -> Evaluation:
+    """Track and evaluate a walk."""
+    samples = walk.take_samples()
+    alone = list(_unconstrained_findings(samples, config)) if walk.on_both else []
     begin = time.process_time()
     trajectory = track_walk(samples, config, options.priors)
-    run_s += time.process_time() - begin
+    run_s = walk.paired_s + time.process_time() - begin
     del samples
     events = trajectory.events
     of_walk = [*start_findings(events), *ride_findings(events), *rate_findings(trajectory), *alone]
-    if on_both:
+    if walk.on_both:
         of_walk += _walk_findings(config, trajectory)
     evaluation = evaluate(
-        trajectory,
-        truth=truth_of(recording),
-        reference=recording.reference,
-        options=options.alignment,
+        trajectory, truth=walk.truth, reference=walk.reference, options=options.alignment
     )
     return replace(
         evaluation,
@@ -192,7 +224,7 @@ def _unconstrained_findings(samples: PairedSamples, config: TrackerConfig) -> It
     """
     alone = unconstrained_config(config)
     if config != alone:
-        yield from walk_findings(track_walk(samples, alone))
+        yield from walk_findings(track_walk(samples, alone, covariances=False))
 
 
 def _walk_findings(config: TrackerConfig, trajectory: Trajectory) -> Iterator[Finding]:

@@ -76,9 +76,14 @@ def track_walk(
     samples: PairedSamples,
     config: TrackerConfig | None = None,
     priors: Mapping[str, BiasPrior] | None = None,
+    *,
+    covariances: bool = True,
 ) -> Trajectory:
-    """Track paired samples in which somebody walks; raise as :func:`track`."""
-    trajectory = track_samples(samples, config, priors)
+    """Track paired samples in which somebody walks; raise as :func:`track`.
+
+    Without ``covariances`` there is nan in their place, and a third of the memory is needed.
+    """
+    trajectory = track_samples(samples, config, priors, covariances=covariances)
     _check_walked(trajectory, samples.left)
     return trajectory
 
@@ -107,8 +112,10 @@ def track_samples(
     samples: PairedSamples,
     config: TrackerConfig | None = None,
     priors: Mapping[str, BiasPrior] | None = None,
+    *,
+    covariances: bool = True,
 ) -> Trajectory:
-    """Track paired samples, even if nobody walks in them.
+    """Track paired samples, even if nobody walks in them; ``covariances`` as in `track_walk`.
 
     Raises
     ------
@@ -126,7 +133,8 @@ def track_samples(
     tracker = DualFootTracker(config)
     for foot, prior in bias_priors(samples, tracker.config, priors or {}).items():
         tracker.declare_bias(foot, prior)
-    trajectory = tracker.run(samples.left, samples.right, samples.pressure, samples.fields)
+    measured = samples.left, samples.right, samples.pressure, samples.fields
+    trajectory = tracker.run(*measured, covariances=covariances)
     paired = {f"sync.{name}": count for name, count in samples.counters.items()}
     return replace(trajectory, counters={**paired, **trajectory.counters})
 

@@ -6,6 +6,7 @@ A bag that was cut off, or whose index or metadata is broken, is read as far as 
 from __future__ import annotations
 
 import re
+import struct
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,6 +14,7 @@ from pathlib import Path
 from ..core import RecordingError
 from .storage.bag_source import BagSource, Block, Chained, TopicInfo, in_blocks
 from .storage.bag_writer import NO_LIBRARY, has_rosbag2_py, has_rosbags
+from .storage.mcap_bag import McapBag
 from .storage.mcap_scan import McapScan
 from .storage.rosbag2_py_source import Rosbag2PySource
 from .storage.rosbags_source import Ros1Source, RosbagsSource
@@ -22,6 +24,7 @@ METADATA = "metadata.yaml"
 ROS1 = ".bag"
 SCANS: dict[str, Callable[[Path], BagSource]] = {".mcap": McapScan, ".db3": SqliteScan}
 HEAD = 200  # characters that hold the first key
+UNUSUAL = (ValueError, KeyError, TypeError, AttributeError, OSError, struct.error)
 
 
 def is_bag(folder: Path) -> bool:
@@ -78,7 +81,7 @@ def iterate(path: Path, source: BagSource, topics: Collection[str]) -> Iterator[
 
 
 def _blocks(source: BagSource, topics: Collection[str]) -> Iterator[Block]:
-    if isinstance(source, RosbagsSource):
+    if isinstance(source, (McapBag, RosbagsSource)):
         return source.blocks(topics)
     return in_blocks(source.messages(topics))
 
@@ -105,10 +108,18 @@ def _open_whole(path: Path) -> BagSource:
             )
         return Ros1Source(path)
     if has_rosbags():
-        return RosbagsSource(path)
+        return _mcap_bag(path) or RosbagsSource(path)
     if has_rosbag2_py():
         return Rosbag2PySource(path)
     raise RecordingError(NO_LIBRARY)
+
+
+def _mcap_bag(path: Path) -> McapBag | None:
+    """Return the ordinary bag of MCAP files; None for any other, or a damaged one."""
+    try:
+        return McapBag(path) if path.is_dir() else None
+    except UNUSUAL:
+        return None
 
 
 def _open_file(file: Path) -> BagSource:

@@ -17,6 +17,8 @@ from ..core import (
     PoseSeries,
     PressureSeries,
     RecordingError,
+    quaternion_matrices,
+    rotate_each,
 )
 from . import message_tables as messages
 from .increments_topic import decode_kind
@@ -203,12 +205,10 @@ def _on_stamps(imu: messages.Table, field: messages.Table) -> FloatArray:
 def _truth(truth: messages.Table | None) -> PoseSeries | None:
     if truth is None:
         return None
-    from scipy.spatial.transform import Rotation
-
     quaternion, body_velocity = truth.values[:, 3:7], truth.values[:, 7:]
     if not len(quaternion):
         return PoseSeries(truth.stamp_ns, truth.values[:, :3], quaternion, body_velocity)
-    velocity = Rotation.from_quat(quaternion).apply(body_velocity)
+    velocity = rotate_each(body_velocity, quaternion_matrices(quaternion))
     return PoseSeries(truth.stamp_ns, truth.values[:, :3], quaternion, velocity)
 
 

@@ -7,10 +7,13 @@ from rosbags.typesys import Stores, get_typestore
 
 from dualfoot_ros.core import RecordingError
 from dualfoot_ros.recording import cdr, read_bag, read_logged, write_bag
+from dualfoot_ros.recording.open_bag import UNUSUAL as UNUSUAL_ERRORS
 from dualfoot_ros.recording.open_bag import opened
 from dualfoot_ros.recording.storage.bag_source import in_blocks
+from dualfoot_ros.recording.storage.mcap_bag import McapBag
 from dualfoot_ros.recording.storage.mcap_chunks import McapChunks
 from dualfoot_ros.recording.storage.mcap_scan import CHUNK_HEAD, HEAD
+from dualfoot_ros.recording.storage.rosbags_source import RosbagsSource
 from dualfoot_ros.recording.topics import IMU_TYPE
 
 from .samples import recording
@@ -31,10 +34,51 @@ def test_the_chunks_hold_what_comes_message_by_message(tmp_path):
     bag = write_bag(tmp_path / "bag", recording())
     with opened(bag) as source:
         topics = list(source.topics)
-        assert source._chunked_files() is not None
+        assert isinstance(source, McapBag)
         chunked = messages_of(source.blocks(topics))
         single = messages_of(in_blocks(source.messages(topics)))
     assert chunked == single and chunked
+
+
+def test_an_ordinary_bag_says_the_same_as_through_the_library(tmp_path):
+    bag = write_bag(tmp_path / "bag", recording())
+    own, library = McapBag(bag), RosbagsSource(bag)
+    assert list(own.topics.items()) == list(library.topics.items())
+    assert own.custom == library.custom and own.custom
+    topics = list(own.topics)
+    assert messages_of(own.blocks(topics)) == messages_of(in_blocks(library.messages(topics)))
+    library.close()
+
+
+UNUSUAL = {
+    "a newer version": ("version: 9", "version: 10"),
+    "another storage": ("storage_identifier: mcap", "storage_identifier: sqlite3"),
+    "compressed message by message": ("compression_mode: ''", "compression_mode: MESSAGE"),
+    "another serialisation": ("serialization_format: cdr", "serialization_format: json"),
+    "a file that is not there": ("- bag.mcap", "- other.mcap"),
+    "no YAML": ("version: 9", "version: [9"),
+    "a key too few": ("relative_file_paths", "paths"),
+}
+
+
+@pytest.mark.parametrize("change", UNUSUAL.values(), ids=UNUSUAL.keys())
+def test_the_library_reads_an_unusual_bag_or_says_what_is_wrong(tmp_path, change):
+    bag = write_bag(tmp_path / "bag", recording())
+    metadata = bag / "metadata.yaml"
+    before = metadata.read_text()
+    metadata.write_text(before.replace(*change))
+    assert metadata.read_text() != before
+    with pytest.raises(UNUSUAL_ERRORS):
+        McapBag(bag)
+
+
+def test_a_file_that_does_not_begin_as_one_of_ros_2_is_left_to_the_library(tmp_path):
+    bag = write_bag(tmp_path / "bag", recording())
+    data = bytearray((bag / "bag.mcap").read_bytes())
+    data[data.index(b"ros2")] = ord("x")
+    (bag / "bag.mcap").write_bytes(data)
+    with pytest.raises(ValueError, match="begin as a file of ROS 2"):
+        McapBag(bag)
 
 
 def disordered(path, log_ns, frames):

@@ -5,6 +5,7 @@ from .last_stand import bias_after, last_stand
 from .prior import BiasPrior
 from .sampling_rate import SamplingRate
 from .start import Alignment, Start, StartKind
+from .whole_windows import WholeWindows
 from .window import Window, WindowSlider
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "SamplingRate",
     "Start",
     "StartKind",
+    "WholeWindows",
     "Window",
     "WindowSlider",
     "bias_after",

@@ -7,10 +7,12 @@ import math
 import numpy as np
 
 from ..config import TrackerConfig
-from ..samples.series import FloatArray, ImuSeries, IntArray
+from ..config_groups import AlignmentConfig
+from ..results.trajectory import stance_bounds
+from ..samples.series import ImuSeries, IntArray
 from .foot_stand import FootStand, FootStandstill
 from .prior import BiasPrior
-from .window import WindowSlider
+from .whole_windows import WholeWindows
 
 SEARCHED_S = 60.0  # stretch at the end of the walk that is looked at
 SHORTEST_S = 2.0  # of a stand that counts
@@ -32,28 +34,23 @@ def bias_after(series: ImuSeries, config: TrackerConfig) -> BiasPrior | None:
 
 def last_stand(series: ImuSeries, config: TrackerConfig) -> FootStandstill | None:
     """Return what the last quiet stand of one foot tells, if there is one in the last minute."""
+    windows, quiet = _newest_windows(series, config.alignment), config.alignment
+    low = windows.scatter_below(quiet.quiet_force_std, quiet.quiet_rate_std)
+    still = low.copy()
+    for k in np.flatnonzero(low).tolist():
+        still[k] = windows.window(k).motion(config.alignment, config.gravity) is None
+    for first, end in stance_bounds(still)[::-1].tolist():
+        stand = FootStand(config.alignment)
+        for k in range(first, end):
+            stand.add(windows.window(k))
+        if stand.seconds >= SHORTEST_S:
+            return stand.result()
+    return None
+
+
+def _newest_windows(series: ImuSeries, config: AlignmentConfig) -> WholeWindows:
+    """Return the windows of the last minute of a foot."""
     stamps: IntArray = series.stamp_ns
     first = int(stamps.searchsorted(stamps[-1] - round(SEARCHED_S * 1e9))) if len(stamps) else 0
-    slider, stand = WindowSlider(config.alignment.window), FootStand(config.alignment)
-    found: FootStandstill | None = None
-    for k in range(first, len(stamps)):
-        window = slider.add(int(stamps[k]), sample(series, k))
-        if window is None:
-            continue
-        if window.motion(config.alignment, config.gravity) is None and window.quiet(
-            config.alignment
-        ):
-            stand.add(window)
-            continue
-        found = _result(stand) or found
-        stand.clear()
-    return _result(stand) or found
-
-
-def _result(stand: FootStand) -> FootStandstill | None:
-    return stand.result() if stand.seconds >= SHORTEST_S else None
-
-
-def sample(series: ImuSeries, index: int) -> FloatArray:
-    """Return specific force and angular rate (6,) of one sample."""
-    return np.concatenate([series.specific_force[index], series.angular_rate[index]])
+    values = np.hstack([series.specific_force[first:], series.angular_rate[first:]])
+    return WholeWindows.over(stamps[first:], values, config.window)

@@ -12,6 +12,7 @@ from ..groups import AlignmentConfig
 from ..samples.series import FloatArray
 
 SLIDES = 25  # steps in which a window moves on by its length
+FEWEST_SAMPLES = 5  # of a window
 CORRELATION_S = 0.15  # time over which the angular rate of a standing foot is alike
 
 
@@ -75,13 +76,18 @@ class Window:
         return self.rate_std <= config.quiet_rate_std and force_std <= config.quiet_force_std
 
 
+def slide_ns(length_ns: int) -> int:
+    """Return by how much a window of a length moves on, ns."""
+    return max(1, length_ns // SLIDES)
+
+
 class WindowSlider:
     """Slides a window of some seconds over the samples of one foot."""
 
     def __init__(self, seconds: float) -> None:
         """Start with no sample."""
         self._length_ns = round(seconds * 1e9)
-        self._step_ns = max(1, self._length_ns // SLIDES)
+        self._step_ns = slide_ns(self._length_ns)
         self._samples: deque[tuple[int, FloatArray]] = deque()
         self._due_ns: int | None = None
 
@@ -93,7 +99,7 @@ class WindowSlider:
         full = samples[0][0] <= begin_ns
         while samples[0][0] <= begin_ns:
             samples.popleft()
-        if not full or len(samples) < 5:
+        if not full or len(samples) < FEWEST_SAMPLES:
             return None
         if self._due_ns is not None and stamp_ns < self._due_ns:
             return None

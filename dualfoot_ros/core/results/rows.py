@@ -1,8 +1,8 @@
-"""The kernel's output rows, turned into a trajectory."""
+"""The kernel's output rows: what is in them, and their turn about the vertical."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -10,7 +10,6 @@ from ..kernel import layout as lay
 from ..samples.series import FloatArray, IntArray
 from .events import FEET, Event, EventKind
 from .payloads import YawTurn
-from .trajectory import FootTrajectory, Trajectory
 
 
 def matrices(cells: FloatArray) -> FloatArray:
@@ -80,36 +79,6 @@ def clean_stance(stamps: IntArray, events: Iterable[Event], foot: int) -> np.nda
     if open_at is not None:
         stance[np.searchsorted(stamps, open_at) :] = True
     return stance
-
-
-def to_trajectory(
-    stamps: IntArray,
-    rows: FloatArray,
-    events: tuple[Event, ...],
-    counters: Mapping[str, int],
-    method: str,
-) -> Trajectory:
-    """Build the trajectory of rows (N, OUT) that all HEADING events have been applied to."""
-    feet = []
-    for foot in range(2):
-        part = rows[:, foot * lay.O_FOOT : (foot + 1) * lay.O_FOOT]
-        feet.append(
-            FootTrajectory(
-                stamps,
-                part[:, lay.O_POS : lay.O_POS + 3],
-                part[:, lay.O_VEL : lay.O_VEL + 3],
-                part[:, lay.O_QUAT : lay.O_QUAT + 4],
-                clean_stance(stamps, events, foot),
-                matrices(part[:, lay.O_COV_POS : lay.O_COV_POS + 9]),
-                matrices(part[:, lay.O_COV_VEL : lay.O_COV_VEL + 9]),
-                matrices(part[:, lay.O_COV_ATT : lay.O_COV_ATT + 9]),
-                part[:, lay.O_PRESENT] > 0.0,
-            )
-        )
-    relative = matrices(rows[:, lay.O_RELATIVE : lay.O_RELATIVE + 9])
-    start = int(stamps[0]) if len(stamps) else 0
-    nis = zupt_nis(rows)
-    return Trajectory(feet[0], feet[1], relative, events, dict(counters), start, method, nis)
 
 
 def zupt_nis(rows: FloatArray) -> FloatArray:

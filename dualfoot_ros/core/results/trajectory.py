@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
 from ..samples.series import BoolArray, FloatArray, IntArray
+from .covariances import Covariances
 from .events import Event, EventKind
 from .payloads import YawTurn
+
+COVARIANCES = ("position_covariance", "velocity_covariance", "attitude_covariance")
 
 
 @dataclass(frozen=True)
@@ -23,7 +27,8 @@ class FootTrajectory:
     velocity : (N, 3) m/s, navigation frame
     quaternion : (N, 4) body to navigation, Hamilton, x y z w
     stance : (N,) bool
-    position_covariance, velocity_covariance, attitude_covariance : (N, 3, 3), navigation frame
+    position_covariance, velocity_covariance, attitude_covariance : (N, 3, 3), navigation frame;
+        arrays to whoever indexes them or calculates with them
     present : (N,) bool, where the foot had samples (default: everywhere)
     """
 
@@ -32,15 +37,17 @@ class FootTrajectory:
     velocity: FloatArray
     quaternion: FloatArray
     stance: np.ndarray
-    position_covariance: FloatArray
-    velocity_covariance: FloatArray
-    attitude_covariance: FloatArray
+    position_covariance: Covariances
+    velocity_covariance: Covariances
+    attitude_covariance: Covariances
     present: BoolArray = field(default_factory=lambda: np.empty(0, dtype=bool))
 
     def __post_init__(self) -> None:
-        """Take the foot for present everywhere when nothing is said of it."""
+        """Take the foot for present everywhere when nothing is said of it, and arrays as given."""
         if len(self.present) != len(self.stamp_ns):
             object.__setattr__(self, "present", np.ones(len(self.stamp_ns), dtype=bool))
+        for name in COVARIANCES:
+            object.__setattr__(self, name, Covariances.of(getattr(self, name)))
 
     def __len__(self) -> int:
         """Return the number of epochs."""
@@ -52,6 +59,15 @@ class FootTrajectory:
         anchors = self.position[stance_middles(self.stance)][:, :2]
         return float(np.linalg.norm(np.diff(anchors, axis=0), axis=1).sum())
 
+    def cut(self, keep: BoolArray | slice) -> FootTrajectory:
+        """Return the epochs that a mask (N,) or a slice of neighbours keeps."""
+        parts: dict[str, Any] = vars(self)
+        kept = {
+            name: part.cut(keep) if name in COVARIANCES else part[keep]
+            for name, part in parts.items()
+        }
+        return FootTrajectory(**kept)
+
     def turned(self, by: YawTurn) -> FootTrajectory:
         """Return the whole track turned and shifted, covariances included."""
         return replace(
@@ -59,9 +75,9 @@ class FootTrajectory:
             position=by.positions(self.position),
             velocity=by.vectors(self.velocity),
             quaternion=by.quaternions(self.quaternion),
-            position_covariance=by.covariances(self.position_covariance),
-            velocity_covariance=by.covariances(self.velocity_covariance),
-            attitude_covariance=by.covariances(self.attitude_covariance),
+            position_covariance=Covariances.of(by.covariances(self.position_covariance[:])),
+            velocity_covariance=Covariances.of(by.covariances(self.velocity_covariance[:])),
+            attitude_covariance=Covariances.of(by.covariances(self.attitude_covariance[:])),
         )
 
 
@@ -76,12 +92,17 @@ class Trajectory:
 
     left: FootTrajectory
     right: FootTrajectory
-    relative_covariance: FloatArray
+    relative_covariance: Covariances
     events: tuple[Event, ...]
     counters: Mapping[str, int]
     start_ns: int
     method: str
     zupt_nis: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
+
+    def __post_init__(self) -> None:
+        """Take an array of covariances as given."""
+        relative = Covariances.of(self.relative_covariance)
+        object.__setattr__(self, "relative_covariance", relative)
 
     def of_kind(self, kind: EventKind, foot: str | None = None) -> list[Event]:
         """Return the events of one kind, of one foot if given."""

@@ -8,7 +8,7 @@ from enum import StrEnum
 import numpy as np
 
 from ..refusals import Refusal
-from .series import FloatArray, IntArray
+from .series import BoolArray, FloatArray, IntArray
 
 LIMIT = 500.0  # m/s^2 and rad/s; no foot-mounted sensor reads more
 MAX_GAP_NS = 200_000_000  # a longer gap is bridged, not filled
@@ -91,17 +91,14 @@ def _bad_value(value: float) -> Refusal:
     return Refusal.OUT_OF_RANGE if math.isfinite(value) else Refusal.NOT_FINITE
 
 
-def regular_samples(
-    stamps: IntArray, values: FloatArray, longest_ns: int = MAX_GAP_NS
-) -> np.ndarray:
+def regular_samples(stamps: IntArray, good: BoolArray, longest_ns: int = MAX_GAP_NS) -> BoolArray:
     """Return (N,) bool: samples that the gate would take, as it did the one before, with no gap.
 
-    A sample counts as taken when it is later than every good sample before it.  (After time has
-    jumped back that is never so, and the samples go one by one.)  ``longest_ns`` is the longest
-    interval without a hole.
+    ``good`` (N,) are those whose values it takes (:func:`good_values`).  A sample counts as taken
+    when it is later than every good sample before it.  (After time has jumped back that is never
+    so, and the samples go one by one.)  ``longest_ns`` is the longest interval without a hole.
     """
     count = len(stamps)
-    good = _good(values)
     latest = np.maximum.accumulate(np.where(good, stamps, np.iinfo(np.int64).min))
     taken = good.copy()
     taken[1:] &= stamps[1:] > latest[:-1]
@@ -112,16 +109,16 @@ def regular_samples(
     return regular
 
 
-def _good(values: FloatArray) -> np.ndarray:
+def good_values(values: FloatArray) -> BoolArray:
     """Return (N,) bool: values (N, 12) in range, but for a foot that is not there."""
     feet = values[:, :6], values[:, 6:]
     there = [np.all(np.abs(foot) < LIMIT, axis=1) for foot in feet]
     away = [np.isnan(foot).all(axis=1) for foot in feet]
-    good: np.ndarray = (there[0] & (there[1] | away[1])) | (there[1] & away[0])
+    good: BoolArray = (there[0] & (there[1] | away[1])) | (there[1] & away[0])
     return good
 
 
-def next_irregular(regular: np.ndarray) -> IntArray:
+def next_irregular(regular: BoolArray) -> IntArray:
     """Return (N,) the index of the first irregular sample at or after each (N if none)."""
     count = len(regular)
     index = np.where(regular, count, np.arange(count))

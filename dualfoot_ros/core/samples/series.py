@@ -129,6 +129,15 @@ class ImuPair(NamedTuple):
         return cls(int(stamp_ns), values)
 
 
+def require_equal_stamps(left: ImuSeries, right: ImuSeries) -> None:
+    """Raise SeriesError when two series do not have the same stamps."""
+    if not np.array_equal(left.stamp_ns, right.stamp_ns):
+        raise SeriesError(
+            f"left ({len(left)} samples) and right ({len(right)} samples) do not have equal "
+            "stamps; bring them on one grid with dualfoot_ros.timing.pairing.batch first"
+        )
+
+
 def stack_pairs(left: ImuSeries, right: ImuSeries) -> FloatArray:
     """Return (N, 12) values as in :class:`ImuPair`; the series must share their stamps.
 
@@ -139,11 +148,7 @@ def stack_pairs(left: ImuSeries, right: ImuSeries) -> FloatArray:
     SeriesError
         When the two series do not have the same stamps.
     """
-    if not np.array_equal(left.stamp_ns, right.stamp_ns):
-        raise SeriesError(
-            f"left ({len(left)} samples) and right ({len(right)} samples) do not have equal "
-            "stamps; bring them on one grid with dualfoot_ros.timing.pairing.batch first"
-        )
+    require_equal_stamps(left, right)
     return np.hstack(
         [left.specific_force, left.angular_rate, right.specific_force, right.angular_rate]
     )

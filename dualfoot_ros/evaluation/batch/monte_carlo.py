@@ -136,15 +136,15 @@ def _errors(run: Trajectory, truth: Truth, config: TrackerConfig) -> Scores:
         ("left", "right"), (run.left, run.right), truth, falls, strict=True
     ):
         at = points(middle, known)
-        _put_position(put, name, foot.position - true.position, foot.position_covariance, at)
+        _put_position(put, name, foot.position - true.position, foot.position_covariance[:], at)
         if true.velocity is not None:
-            put(f"{name} velocity", foot.velocity - true.velocity, foot.velocity_covariance, at)
+            put(f"{name} velocity", foot.velocity - true.velocity, foot.velocity_covariance[:], at)
         turned = attitude_error(foot.quaternion, true.quaternion)
-        put(f"{name} attitude", turned, foot.attitude_covariance, at)
+        put(f"{name} attitude", turned, foot.attitude_covariance[:], at)
         put(f"{name} heading", turned[:, 2:], foot.attitude_covariance[:, 2:, 2:], at)
     apart = run.left.position - run.right.position - (truth[0].position - truth[1].position)
     at = points(np.sort(np.concatenate(falls)), known)
-    _put_position(put, "relative", apart, run.relative_covariance, at)
+    _put_position(put, "relative", apart, run.relative_covariance[:], at)
     return scores, squares
 
 

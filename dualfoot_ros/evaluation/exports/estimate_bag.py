@@ -38,10 +38,10 @@ def _foot(name: str, track: FootTrajectory) -> OdometrySeries:
         stamp_ns=track.stamp_ns,
         position=track.position,
         quaternion=track.quaternion,
-        position_covariance=track.position_covariance,
+        position_covariance=track.position_covariance[:],
         yaw_variance=track.attitude_covariance[:, 2, 2],
         velocity=turned.apply(track.velocity, inverse=True),
-        velocity_covariance=_in_body(turned.as_matrix(), track.velocity_covariance),
+        velocity_covariance=_in_body(turned.as_matrix(), track.velocity_covariance[:]),
         path_rows=np.unique(np.append(stance_middles(track.stance), len(track) - 1)),
     )
 

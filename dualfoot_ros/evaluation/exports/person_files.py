@@ -9,7 +9,7 @@ import numpy as np
 from ...core import FloatArray, PoseSeries
 from ..frames.association import seconds
 from ..person_track import PersonTrack
-from .number_text import integers, lines
+from .number_text import BLOCK, integers, lines
 from .tum import write_tum
 
 DECIMALS = 6
@@ -36,19 +36,27 @@ def heading_quaternions(heading: FloatArray) -> FloatArray:
 
 
 def _write_csv(path: Path, person: PersonTrack) -> Path:
-    c = person.covariance
-    values = np.column_stack(
+    with path.open("wb") as file:
+        file.write(f"{COLUMNS}\n".encode())
+        for first in range(0, len(person.stamp_ns), BLOCK):
+            rows = slice(first, first + BLOCK)
+            stamps, values = integers(person.stamp_ns[rows]), _values(person, rows)
+            file.writelines(lines(stamps, values, DECIMALS, ","))
+    return path
+
+
+def _values(person: PersonTrack, rows: slice) -> FloatArray:
+    """Return the columns behind the stamps (K, 12) of some epochs."""
+    some = PersonTrack(**{name: value[rows] for name, value in vars(person).items()})
+    c = some.covariance
+    return np.column_stack(
         [
-            seconds(person.stamp_ns, int(person.stamp_ns[0])),
-            person.position,
-            person.floor_m,
-            np.degrees(person.heading),
-            person.walked_m,
-            person.radius_95_m,
+            seconds(some.stamp_ns, int(person.stamp_ns[0])),
+            some.position,
+            some.floor_m,
+            np.degrees(some.heading),
+            some.walked_m,
+            some.radius_95_m,
             *(c[:, i, j] for i, j in ((0, 0), (0, 1), (1, 1), (2, 2))),
         ]
     )
-    with path.open("wb") as file:
-        file.write(f"{COLUMNS}\n".encode())
-        file.writelines(lines(integers(person.stamp_ns), values, DECIMALS, ","))
-    return path

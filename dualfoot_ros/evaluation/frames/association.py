@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -57,11 +57,6 @@ def as_slice(keep: np.ndarray) -> np.ndarray | slice:
     at = np.flatnonzero(keep)
     whole = len(at) > 0 and int(at[-1]) - int(at[0]) + 1 == len(at)
     return slice(int(at[0]), int(at[-1]) + 1) if whole else keep
-
-
-def cut(track: FootTrajectory, keep: np.ndarray | slice) -> FootTrajectory:
-    """Return the epochs of a track that the (N,) mask or slice keeps."""
-    return replace(track, **{name: value[keep] for name, value in vars(track).items()})
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ...core import FEET, EvaluationError, FloatArray, PoseSeries, Trajectory
-from .association import Footfalls, as_slice, cut, truth_at, within
+from .association import Footfalls, as_slice, truth_at, within
 from .yaw_transform import FIRST_STRIDES_M, Align, Pair, YawTransform, fit
 
 Truth = tuple[PoseSeries, PoseSeries]
@@ -39,8 +39,8 @@ def overlap(trajectory: Trajectory, truth: Truth) -> tuple[Trajectory, Truth]:
     """Return the epochs that lie within the truth of both feet, and the truth at their stamps."""
     stamps = trajectory.left.stamp_ns
     keep = as_slice(within(stamps, truth[0]) & within(stamps, truth[1]))
-    left, right = cut(trajectory.left, keep), cut(trajectory.right, keep)
-    relative = trajectory.relative_covariance[keep]
+    left, right = trajectory.left.cut(keep), trajectory.right.cut(keep)
+    relative = trajectory.relative_covariance.cut(keep)
     known = (truth_at(stamps[keep], truth[0]), truth_at(stamps[keep], truth[1]))
     return replace(trajectory, left=left, right=right, relative_covariance=relative), known
 
@@ -115,5 +115,5 @@ def apply_transforms(trajectory: Trajectory, transforms: dict[str, YawTransform]
         trajectory,
         left=left.foot(trajectory.left),
         right=right.foot(trajectory.right),
-        relative_covariance=left.covariance(trajectory.relative_covariance),
+        relative_covariance=trajectory.relative_covariance.turned(left.matrix),
     )

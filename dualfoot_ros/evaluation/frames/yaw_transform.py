@@ -80,9 +80,9 @@ class YawTransform:
             position=self.position(track.position),
             velocity=self.vector(track.velocity),
             quaternion=self.quaternion(track.quaternion),
-            position_covariance=self.covariance(track.position_covariance),
-            velocity_covariance=self.covariance(track.velocity_covariance),
-            attitude_covariance=self.covariance(track.attitude_covariance),
+            position_covariance=track.position_covariance.turned(self.matrix),
+            velocity_covariance=track.velocity_covariance.turned(self.matrix),
+            attitude_covariance=track.attitude_covariance.turned(self.matrix),
         )
 
     def to_dict(self) -> dict[str, object]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import FloatArray, FootTrajectory, IntArray, PoseSeries
+from ...core import Covariances, FloatArray, FootTrajectory, IntArray, PoseSeries
 
 SMALLEST_STD = 1e-4
 """Lower bound of the standard deviations (m, m/s, rad); a hard constraint makes them zero."""
@@ -47,7 +47,7 @@ def consistency(
     feet: tuple[FootTrajectory, FootTrajectory],
     truth: tuple[PoseSeries, PoseSeries],
     middles: tuple[IntArray, IntArray],
-    relative_covariance: FloatArray,
+    relative_covariance: Covariances,
 ) -> Consistency:
     """Return the NEES of both aligned feet against the truth at the same stamps."""
     rows = [_foot(foot, true, at) for foot, true, at in zip(feet, truth, middles, strict=True)]
@@ -74,7 +74,8 @@ def _foot(
     attitude = float("nan")
     if len(at):
         turned = attitude_error(foot.quaternion[at], true.quaternion[at])
-        attitude = _mean(turned, foot.attitude_covariance[at], np.arange(len(at)))
+        own = Covariances.of(foot.attitude_covariance[at])
+        attitude = _mean(turned, own, np.arange(len(at)))
     position = _mean(foot.position - true.position, foot.position_covariance, at)
     return position, velocity, attitude
 
@@ -89,8 +90,9 @@ def attitude_error(estimate: FloatArray, truth: FloatArray) -> FloatArray:
     return error
 
 
-def _mean(error: FloatArray, covariance: FloatArray, at: IntArray) -> float:
+def _mean(error: FloatArray, covariance: Covariances, at: IntArray) -> float:
     """Return the mean NEES at the epochs ``at``; nan without epochs or without a covariance."""
-    if len(at) == 0 or not np.isfinite(covariance[at]).all():
+    there = covariance[at]
+    if len(at) == 0 or not np.isfinite(there).all():
         return float("nan")
-    return float(np.mean(nees(error[at], covariance[at])))
+    return float(np.mean(nees(error[at], there)))

@@ -35,29 +35,29 @@ def trust_series(trajectory: Trajectory, limit_m: float) -> tuple[IntArray, list
     """Return the (K,) epochs, about one a second, and what the position was worth at each."""
     left, right = trajectory.left, trajectory.right
     position = 0.5 * (left.position + right.position)[:, :2]
-    own = 0.5 * (left.position_covariance + right.position_covariance)
-    covariance = (own - 0.25 * trajectory.relative_covariance)[:, :2, :2]
-    variance = mean_heading_variance(trajectory)
     headings = trajectory.of_kind(EventKind.HEADING)
     known_ns = max((e.detected_ns for e in headings if not e.turn.joint), default=0)
     stamps, tracker = left.stamp_ns, TrustTracker(limit_m)
     wanted = np.arange(stamps[0], stamps[-1] + 1, round(EVERY_S * 1e9))
     epochs: IntArray = np.unique(np.append(np.searchsorted(stamps, wanted), len(stamps) - 1))
+    own = 0.5 * (left.position_covariance[epochs] + right.position_covariance[epochs])
+    covariance = (own - 0.25 * trajectory.relative_covariance[epochs])[:, :2, :2]
+    variance = mean_heading_variance(trajectory, epochs)
     found = []
-    for k in epochs.tolist():
+    for n, k in enumerate(epochs.tolist()):
         stamp_ns = int(stamps[k])
         known = stamp_ns >= known_ns
-        tracker.add(stamp_ns, position[k], covariance[k], variance[k], heading_known=known)
+        tracker.add(stamp_ns, position[k], covariance[n], variance[n], heading_known=known)
         trust = tracker.result()
         assert trust is not None
         found.append(trust)
     return epochs, found
 
 
-def mean_heading_variance(trajectory: Trajectory) -> FloatArray:
-    """Return the greatest variance (N,) rad^2 that the mean of both headings can have."""
+def mean_heading_variance(trajectory: Trajectory, epochs: IntArray) -> FloatArray:
+    """Return the greatest variance (K,) rad^2 that the mean of both headings can have."""
     left, right = (
-        np.sqrt(np.maximum(foot.attitude_covariance[:, 2, 2], 0.0))
+        np.sqrt(np.maximum(foot.attitude_covariance[epochs, 2, 2], 0.0))
         for foot in (trajectory.left, trajectory.right)
     )
     variance: FloatArray = (0.5 * (left + right)) ** 2

@@ -12,6 +12,7 @@ from rclpy.node import Node
 
 from ...core import (
     FEET,
+    Covariances,
     Event,
     FloatArray,
     FootTrajectory,
@@ -93,9 +94,9 @@ def foot_trajectory(stamps: IntArray, messages: Sequence[Odometry]) -> FootTraje
         (to_nav @ velocity)[:, :, 0],
         quaternion,
         np.zeros(len(stamps), dtype=bool),
-        pose[:, :3, :3],
-        to_nav @ twist[:, :3, :3] @ to_nav.transpose(0, 2, 1),
-        pose[:, 3:, 3:],
+        Covariances.of(pose[:, :3, :3]),
+        Covariances.of(to_nav @ twist[:, :3, :3] @ to_nav.transpose(0, 2, 1)),
+        Covariances.of(pose[:, 3:, 3:]),
     )
 
 

@@ -1,0 +1,105 @@
+"""What a trajectory keeps of the kernel's output rows: half of their memory."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ..kernel import layout as lay
+from ..samples.series import BoolArray, FloatArray, IntArray
+from .covariances import CELLS, UPPER, Covariances
+from .events import Event
+from .rows import clean_stance, turn_rows, zupt_nis
+from .trajectory import FootTrajectory, Trajectory
+
+NOMINAL = lay.O_QUAT + 4  # position, velocity and quaternion stand side by side
+OF_FOOT = (lay.O_COV_POS, lay.O_COV_VEL, lay.O_COV_ATT)
+BLOCKS = (*OF_FOOT, *(lay.O_FOOT + block for block in OF_FOOT), lay.O_RELATIVE)
+TRIANGLES = np.array([block + cell for block in BLOCKS for cell in UPPER])
+SQUARES = np.array([block + cell for block in BLOCKS for cell in range(9)])
+
+
+class RowStore:
+    """Rows that are put in once, turned when a heading becomes known, and read by columns."""
+
+    def __init__(self, count: int, covariances: bool = True) -> None:
+        """Make room for ``count`` rows, with ``covariances`` or without."""
+        self._count, self._with_covariances = count, covariances
+        self._nominal = [np.zeros((count, NOMINAL)) for _ in range(2)]
+        self._present = np.zeros((count, 2), dtype=bool)
+        self._nis = np.zeros((count, 2))
+        self._triangles = np.zeros((count if covariances else 0, len(TRIANGLES)))
+        self._turned = np.empty((0, len(SQUARES)))  # covariances of the rows that were turned
+
+    def put(self, places: slice | list[int], rows: FloatArray) -> None:
+        """Take rows (K, OUT) for places that no turn has reached."""
+        self._put_nominal(places, rows)
+        for foot in range(2):
+            self._present[places, foot] = rows[:, foot * lay.O_FOOT + lay.O_PRESENT] > 0.0
+        self._nis[places] = zupt_nis(rows)
+        if self._with_covariances:
+            self._triangles[places] = np.take(rows, TRIANGLES, axis=1)
+
+    def turn(self, count: int, event: Event) -> None:
+        """Turn the first ``count`` rows as a HEADING event says."""
+        rows = self._rows(count)
+        turn_rows(rows, event)
+        self._put_nominal(slice(count), rows)
+        if self._with_covariances:
+            self._turned = np.concatenate([rows[:, SQUARES], self._turned[count:]])
+
+    def _put_nominal(self, places: slice | list[int], rows: FloatArray) -> None:
+        for foot, nominal in enumerate(self._nominal):
+            nominal[places] = rows[:, foot * lay.O_FOOT : foot * lay.O_FOOT + NOMINAL]
+
+    def _rows(self, count: int) -> FloatArray:
+        """Return what is kept of the first rows (count, OUT), in its places."""
+        rows = np.zeros((count, lay.OUT))
+        for foot, nominal in enumerate(self._nominal):
+            rows[:, foot * lay.O_FOOT : foot * lay.O_FOOT + NOMINAL] = nominal[:count]
+        for number, block in enumerate(BLOCKS if self._with_covariances else ()):
+            matrices = self._covariances(number)[:count]
+            rows[:, block : block + len(CELLS)] = matrices.reshape(-1, len(CELLS))
+        return rows
+
+    def _covariances(self, number: int) -> Covariances:
+        """Return the covariances of one of BLOCKS, nan where they are not kept."""
+        if not self._with_covariances:
+            return Covariances.unknown(self._count)
+        whole = self._turned[:, 9 * number : 9 * number + 9].reshape(-1, 3, 3)
+        size = len(UPPER)
+        return Covariances(
+            whole, self._triangles[len(whole) :, size * number : size * (number + 1)]
+        )
+
+    def trajectory(
+        self,
+        stamps: IntArray,
+        keep: BoolArray | slice,
+        events: tuple[Event, ...],
+        counters: Mapping[str, int],
+        method: str,
+    ) -> Trajectory:
+        """Return the trajectory of the rows that are kept, with their stamps (M,)."""
+        left, right = (self._foot(foot, stamps, keep, events) for foot in range(2))
+        relative = self._covariances(len(BLOCKS) - 1).cut(keep)
+        start = int(stamps[0]) if len(stamps) else 0
+        nis = self._nis[keep]
+        return Trajectory(left, right, relative, events, dict(counters), start, method, nis)
+
+    def _foot(
+        self, foot: int, stamps: IntArray, keep: BoolArray | slice, events: tuple[Event, ...]
+    ) -> FootTrajectory:
+        nominal, first = self._nominal[foot][keep], len(OF_FOOT) * foot
+        return FootTrajectory(
+            stamps,
+            nominal[:, lay.O_POS : lay.O_POS + 3],
+            nominal[:, lay.O_VEL : lay.O_VEL + 3],
+            nominal[:, lay.O_QUAT : lay.O_QUAT + 4],
+            clean_stance(stamps, events, foot),
+            self._covariances(first).cut(keep),
+            self._covariances(first + 1).cut(keep),
+            self._covariances(first + 2).cut(keep),
+            self._present[keep, foot],
+        )

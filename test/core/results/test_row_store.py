@@ -1,0 +1,63 @@
+"""A trajectory has the bits of the kernel's rows, whatever is kept of them."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from dualfoot_ros.core import DualFootTracker, EventKind, Trajectory
+from dualfoot_ros.core.kernel import layout as lay
+from dualfoot_ros.core.samples.series import stack_pairs
+from dualfoot_ros.simulation import WalkConfig, grade, simulate
+
+from ..following import live, same_bits
+from ..harness import Pairs
+
+OF_FOOT = {
+    "position_covariance": lay.O_COV_POS,
+    "velocity_covariance": lay.O_COV_VEL,
+    "attitude_covariance": lay.O_COV_ATT,
+}
+
+
+@cache
+def walk():
+    return simulate(WalkConfig(route="straight", rate=60.0), grade("consumer"), seed=5)
+
+
+@cache
+def tracked(covariances: bool) -> Trajectory:
+    return DualFootTracker().run(walk().left, walk().right, covariances=covariances)
+
+
+@cache
+def followed():
+    left, right = walk().left, walk().right
+    return live(DualFootTracker(), Pairs(left.stamp_ns, stack_pairs(left, right)))
+
+
+def test_every_cell_of_every_covariance_is_that_of_the_rows_turned_as_they_came():
+    result, rows = tracked(covariances=True), followed().turned()
+    assert result.of_kind(EventKind.HEADING)
+    for foot, track in enumerate((result.left, result.right)):
+        for name, start in OF_FOOT.items():
+            cells = rows[:, foot * lay.O_FOOT + start :][:, :9]
+            assert np.array_equal(getattr(track, name)[:].reshape(-1, 9), cells)
+    relative = rows[:, lay.O_RELATIVE : lay.O_RELATIVE + 9]
+    assert np.array_equal(result.relative_covariance[:].reshape(-1, 9), relative)
+
+
+@pytest.mark.parametrize("name", OF_FOOT)
+def test_without_covariances_all_else_is_the_same(name):
+    result, whole = tracked(covariances=False), tracked(covariances=True)
+    assert result.zupt_nis.tobytes() == whole.zupt_nis.tobytes()
+    for track, same in zip((result.left, result.right), (whole.left, whole.right), strict=True):
+        for part in ("position", "velocity", "quaternion", "stance", "present", "stamp_ns"):
+            assert getattr(track, part).tobytes() == getattr(same, part).tobytes()
+        assert getattr(track, name).shape == (len(track), 3, 3)
+        assert np.isnan(getattr(track, name)[::50]).all()
+    assert [e.stamp_ns for e in result.events] == [e.stamp_ns for e in whole.events]
+
+
+def test_a_live_run_has_the_same_rows():
+    same_bits(followed(), tracked(covariances=True))

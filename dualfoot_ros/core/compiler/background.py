@@ -18,8 +18,8 @@ class BackgroundEngine:
     """Gets the compiled kernel ready.
 
     A cold cache is filled by another process, so that the compiler never competes with the live
-    path for the interpreter.  Loading from a warm cache takes some ms, or half a second where numba
-    has to do it.
+    path for the interpreter.  Loading from a warm cache takes some ms, or half a second where
+    numba has to do it.
     """
 
     def __init__(self) -> None:

@@ -19,6 +19,9 @@ POSE_ROWS = np.concatenate([np.arange(3) + start for start in (lay.E_POS, lay.E_
 POSE_SIGNS = np.outer(np.repeat([1.0, -1.0], 3), np.repeat([1.0, -1.0], 3))
 # position error, rotation error = -phi
 MEAN_ROWS = np.concatenate([np.arange(3) + start for start in (lay.E_POS, lay.E_ATT, lay.E_VEL)])
+# Where these parts are in a block, and in each of the three blocks.
+POSE_PLACES = lay.ROW * POSE_ROWS[:, None] + POSE_ROWS
+MEAN_PLACES = lay.BLOCK * np.arange(3)[:, None, None] + lay.ROW * MEAN_ROWS[:, None] + MEAN_ROWS
 MEAN_SIGNS = np.outer(np.repeat([1.0, -1.0, 1.0], 3), np.repeat([1.0, -1.0, 1.0], 3))
 
 
@@ -205,7 +208,7 @@ def mean_covariance(blocks: FloatArray, shares: tuple[float, float] = (0.5, 0.5)
     ``blocks`` (3 BLOCK,) are the covariances of the left and the right foot, and the cross part;
     ``shares`` what each foot counts in the mean.
     """
-    own, other, cross = blocks.reshape(3, lay.ERRORS, lay.ROW)[:, MEAN_ROWS[:, None], MEAN_ROWS]
+    own, other, cross = blocks.take(MEAN_PLACES)
     a, b = shares
     mean: FloatArray = (a * a * own + b * b * other + a * b * (cross + cross.T)) * MEAN_SIGNS
     return mean
@@ -217,5 +220,5 @@ def pose_part(block: FloatArray) -> FloatArray:
     The filter's attitude error turns the estimate back to the truth, C_hat = (I - [phi x]) C; the
     rotation by which the estimate exceeds the truth is -phi, hence the signs of the cross part.
     """
-    pose: FloatArray = block[POSE_ROWS[:, None], POSE_ROWS] * POSE_SIGNS
+    pose: FloatArray = block.take(POSE_PLACES) * POSE_SIGNS
     return pose

@@ -12,7 +12,7 @@ from ..rotation import mean_angle, quaternion_yaw
 from ..samples.series import FloatArray
 from .events import Event
 from .facing import NO_FACING, UNKNOWN_VARIANCE, Facing
-from .rows import matrices, zupt_event
+from .rows import matrices, stance_nis, zupt_event
 
 ONE_FOOT_STD = 0.4  # m, of the person about one foot
 POSE_ROWS = np.concatenate([np.arange(3) + start for start in (lay.E_POS, lay.E_ATT)])
@@ -131,6 +131,10 @@ class Update:
             return self._noted
         zupts = (zupt_event(self.row, foot, self.stamp_ns) for foot in range(2))
         return (*(event for event in zupts if event is not None), *self._noted)
+
+    def stance_nis(self, foot: int) -> float | None:
+        """Return the NIS of the zero-velocity update of foot 0 or 1; None without one."""
+        return None if self.row is None else stance_nis(self.row, foot)
 
     @property
     def announced(self) -> tuple[Event, ...]:

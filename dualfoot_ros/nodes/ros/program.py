@@ -26,6 +26,7 @@ from .executor import Executor
 
 SOURCE_LINE = re.compile(r" ?, at \S+:\d+")  # where in rcl's own source an error was found
 STOPPED = (KeyboardInterrupt, ExternalShutdownException)
+SWITCH_S = 0.5e-3  # for which another thread may hold up a sample; 5 ms is Python's own
 
 
 @dataclass(frozen=True)
@@ -135,6 +136,7 @@ def in_one_line(error: Exception) -> str:
 
 
 def _spin(graph: Graph) -> None:
+    sys.setswitchinterval(SWITCH_S)
     executor = Executor()
     try:
         for node in graph.nodes:

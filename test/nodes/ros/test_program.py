@@ -1,11 +1,14 @@
 """The loop that every executable runs in."""
 
+import sys
 import threading
 
 import pytest
+from rclpy.node import Node
 from rclpy.task import Future
 
 from dualfoot_ros.core.errors import DualFootError
+from dualfoot_ros.nodes.ros import program
 from dualfoot_ros.nodes.ros.executor import Executor
 from dualfoot_ros.nodes.ros.program import _spin_until
 
@@ -49,6 +52,18 @@ def test_an_end_that_comes_from_another_thread_wakes_an_idle_loop(bench, executo
     _spin_until(done, executor)
     thread.join()
     assert done.result() is True
+
+
+def test_other_threads_hold_up_a_callback_for_half_a_millisecond_at_most(context, monkeypatch):
+    monkeypatch.setattr(program, "Executor", lambda: Executor(context=context))
+    monkeypatch.setattr(program, "_ignore_signals", lambda: None)
+    node, done, usual = Node("probe", context=context), Future(), sys.getswitchinterval()
+    node.create_timer(0.01, lambda: done.set_result(sys.getswitchinterval()))
+    try:
+        program._spin(program.Graph([node], done))
+        assert done.result() == pytest.approx(0.5e-3)
+    finally:
+        sys.setswitchinterval(usual)
 
 
 def test_an_end_by_failure_raises_it(bench, executor):

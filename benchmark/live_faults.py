@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 import rclpy
 from rclpy.parameter import Parameter
+from rclpy.serialization import serialize_message
 from rich.console import Console
 from rich.table import Table
 from sensor_msgs.msg import Imu
@@ -144,7 +145,7 @@ class Bench:
             set_imu_values(message, np.ascontiguousarray(values))
             now_ns = self._own.time_ns()
             self.node.streams.inputs[foot]._receive(  # noqa: SLF001 - as rclpy calls it
-                message, {"received_timestamp": now_ns}
+                serialize_message(message), {"received_timestamp": now_ns}
             )
 
     def report(self) -> None:

@@ -25,15 +25,17 @@ from .lateral_spacing import SideBySide, side_by_side, straight
 from .pressure_facts import PressureFacts, pressure_facts, wearer_words
 from .quality import Quality, quality_of
 from .stance_statistics import StanceStatistics, stance_statistics, unconstrained_config
-from .stretch import Stretch, stretch_findings
+from .stretch import SIGNALS_S, WALK_S, Stretch, signal_findings, track_findings
 from .stuck_values import AXES, TRIADS, Channel, Held, Stuck, held_at_rest
 from .walk_facts import StepFacts, WalkFacts, walk_facts
 
 __all__ = [
     "AXES",
     "GRAVITY_ERROR",
+    "SIGNALS_S",
     "STUCK_SHARE",
     "TRIADS",
+    "WALK_S",
     "ArrivalFacts",
     "Channel",
     "FieldFacts",
@@ -70,10 +72,11 @@ __all__ = [
     "require_usable",
     "ride_findings",
     "side_by_side",
+    "signal_findings",
     "stance_statistics",
     "start_findings",
     "straight",
-    "stretch_findings",
+    "track_findings",
     "unconstrained_config",
     "walk_facts",
     "walk_findings",

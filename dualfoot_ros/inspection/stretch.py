@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import deque
+import struct
 from collections.abc import Iterator
 
 import numpy as np
@@ -13,7 +13,8 @@ from ..timing import align
 from .findings import Finding, FindingKind, findings_of, walk_findings
 from .stance_statistics import unconstrained_config
 
-STRETCH_S = 60.0  # of a walk with turns, to tell exchanged feet
+WALK_S = 60.0  # of a walk with turns, to tell exchanged feet
+SIGNALS_S = 20.0  # of samples, to tell a wrong sensor
 LEAST_S = 4.0  # a shorter stretch is not inspected
 LONG_NS = 3_600_000_000_000  # a jump of the stamps beyond this begins anew
 LARGEST = 1e5  # no reading of a sensor in any unit is larger
@@ -36,74 +37,84 @@ OF_STREAM = frozenset(
 """Kinds of findings on a recording that say something of a stretch of it."""
 
 
+ROW = np.dtype([("stamp_ns", "i8"), ("values", "f8", 6)])
+STAMP = struct.Struct("q")
+
+
 class Stretch:
-    """The samples of the last STRETCH_S seconds of both feet.
+    """The samples of the last WALK_S seconds of both feet.
 
     ``add`` is cheap, for every sample; ``take`` returns a recording that does not change any more,
-    so that another thread can inspect it with `stretch_findings`.
+    so that another thread can inspect it.
     """
 
-    def __init__(self, length_s: float = STRETCH_S) -> None:
+    def __init__(self, length_s: float = WALK_S) -> None:
         """Keep ``length_s`` seconds of samples."""
         self._length_ns = round(1e9 * length_s)
-        self._samples: dict[str, deque[tuple[int, FloatArray]]] = {f: deque() for f in FEET}
+        self._rows = {foot: bytearray() for foot in FEET}  # each sample as a ROW
+        self._newest_ns: dict[str, int] = {}
 
     def add(self, foot: str, stamp_ns: int, values: FloatArray) -> None:
         """Take specific force and angular rate (6,) of one sample."""
-        samples = self._samples[foot]
-        if samples and abs(stamp_ns - samples[-1][0]) > LONG_NS:
-            samples.clear()
-        samples.append((stamp_ns, values))
-        while samples[0][0] < stamp_ns - self._length_ns:
-            samples.popleft()
+        rows = self._rows[foot]
+        if abs(stamp_ns - self._newest_ns.get(foot, stamp_ns)) > LONG_NS:
+            rows.clear()
+        rows += STAMP.pack(stamp_ns) + values.tobytes()
+        self._newest_ns[foot] = stamp_ns
+        while STAMP.unpack_from(rows)[0] < stamp_ns - self._length_ns:
+            del rows[: ROW.itemsize]
 
     @property
     def newest_ns(self) -> int:
         """The newest stamp of either foot; 0 before the first."""
-        return max((s[-1][0] for s in self._samples.values() if s), default=0)
+        return max(self._newest_ns.values(), default=0)
 
     def clear(self) -> None:
         """Forget everything."""
-        for samples in self._samples.values():
-            samples.clear()
+        self._newest_ns.clear()
+        for rows in self._rows.values():
+            rows.clear()
 
-    def take(self) -> Recording:
-        """Return the stretch as a recording."""
-        left, right = (_series(list(self._samples[foot])) for foot in FEET)
+    def take(self, length_s: float = WALK_S) -> Recording:
+        """Return the last ``length_s`` s as a recording."""
+        left, right = (_series(bytes(self._rows[foot]), length_s) for foot in FEET)
         return Recording(left, right)
 
 
-def _series(samples: list[tuple[int, FloatArray]]) -> ImuSeries | None:
-    if not samples:
+def _series(rows: bytes, length_s: float) -> ImuSeries | None:
+    """Return the last ``length_s`` s of the samples that are possible; others are counted."""
+    if not rows:
         return None
-    values = np.array([values for _, values in samples])
-    stamps = np.array([stamp_ns for stamp_ns, _ in samples], dtype=np.int64)
-    possible = (np.abs(values) < LARGEST).all(axis=1)  # the others are refused, and counted
-    return ImuSeries(stamps[possible], values[possible, :3], values[possible, 3:])
+    samples = np.frombuffer(rows, dtype=ROW)
+    stamps, values = samples["stamp_ns"], samples["values"]
+    usable = (np.abs(values) < LARGEST).all(axis=1)
+    usable &= stamps >= stamps[-1] - round(1e9 * length_s)
+    return ImuSeries(stamps[usable], values[usable, :3], values[usable, 3:])
 
 
-def stretch_findings(
-    stretch: Recording, config: TrackerConfig, *, track: bool = True
-) -> Iterator[Finding]:
-    """Yield the findings on a stretch of a live stream.
+def signal_findings(stretch: Recording) -> Iterator[Finding]:
+    """Yield the findings on the sensors of a stretch of a live stream."""
+    if _is_long_enough(stretch):
+        yield from (found for found in findings_of(stretch) if found.kind in OF_STREAM)
 
-    ``config`` is that of the live tracker.  With ``track`` each foot is tracked by itself with the
-    compiled kernel, and what the walk shows is told too.
+
+def track_findings(stretch: Recording, config: TrackerConfig) -> Iterator[Finding]:
+    """Yield what the tracks of a stretch show; nothing where it gives no start.
+
+    ``config`` is that of the live tracker.  Each foot is tracked by itself with the compiled
+    kernel.
     """
     left, right = stretch.left, stretch.right
-    feet = [series for series in (left, right) if series is not None and len(series)]
-    if not feet or min(series.duration_s for series in feet) < LEAST_S:
+    if left is None or right is None or not _is_long_enough(stretch):
         return
-    yield from (found for found in findings_of(stretch) if found.kind in OF_STREAM)
-    if track and left is not None and right is not None:
-        yield from _walk(left, right, config)
-
-
-def _walk(left: ImuSeries, right: ImuSeries, config: TrackerConfig) -> Iterator[Finding]:
-    """Yield what the tracks of a stretch show; nothing where it gives no start."""
     tracker = DualFootTracker(unconstrained_config(config), engine="compiled")
     try:
         trajectory = tracker.run(*align(left, right))
     except DualFootError:
         return
     yield from walk_findings(trajectory)
+
+
+def _is_long_enough(stretch: Recording) -> bool:
+    feet = [foot for foot in (stretch.left, stretch.right) if foot is not None and len(foot)]
+    return bool(feet) and min(foot.duration_s for foot in feet) >= LEAST_S

@@ -8,7 +8,6 @@ from typing import Any
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 
 from ..core import (
@@ -43,9 +42,9 @@ from .inputs.stream_check import StreamCheck
 from .inputs.unit_check import UnitCheck
 from .results.fusion_report import FusionReport
 from .results.outputs import Outputs
+from .ros.cdr_imu import ImuBytes
 from .ros.declared_parameters import declare, group
 from .ros.diagnostics import Reporter
-from .ros.messages import imu_values, to_ns
 from .ros.program import Graph, Program, run_nodes
 
 NO_PAIRS = "the node that makes the pairs, as time_sync, reports in /diagnostics why it has none"
@@ -151,11 +150,11 @@ class FusionNode(Node):
         self._service = self.create_service(Trigger, "~/reset", self._reset)
         self.initial_pose = InitialPose(self, frame_id, self._set_pose)
 
-    def _read_sample(self, foot: str, message: Imu, stamp_ns: int) -> FloatArray:
+    def _read_sample(self, foot: str, message: ImuBytes, stamp_ns: int) -> FloatArray:
         """Return specific force and angular rate (6,) of a message, calibrated."""
         if self.fields is not None:
-            self.fields.stamped(foot, to_ns(message.header.stamp), stamp_ns)
-        values = imu_values(message)
+            self.fields.stamped(foot, message.stamp_ns, stamp_ns)
+        values = message.values
         if foot in self._calibration:
             values = self._calibration[foot].values(values)
         self._unit_checks[foot].add(values.tolist())

@@ -13,9 +13,10 @@ from ..settings import InputConfig, node_specs
 from ..timing import StampConfig
 from .inputs.foot_streams import FootStreams
 from .ros import qos
+from .ros.cdr_imu import ImuBytes
 from .ros.declared_parameters import declare, group
 from .ros.diagnostics import Rates, Reporter
-from .ros.messages import imu_values, new_imu, set_imu_values, set_time
+from .ros.messages import new_imu, set_imu_values, set_time
 from .ros.program import Graph, Program, run_nodes
 from .ros.status import Status
 from .ros.watched_publisher import watched_publisher
@@ -58,13 +59,13 @@ class TimeSyncNode(Node):
         self._reporter = Reporter(self, values, self._collect)
         self.streams.on_change = self._reporter.report
 
-    def _read_sample(self, foot: str, received: Imu, _stamp_ns: int) -> FloatArray:
+    def _read_sample(self, foot: str, sample: ImuBytes, _stamp_ns: int) -> FloatArray:
         """Return the values (6,) of a message; pass on what interpolation does not change."""
-        message = self._messages[foot]
+        message, received = self._messages[foot], sample.message
         message.header.frame_id = received.header.frame_id
         message.angular_velocity_covariance = received.angular_velocity_covariance
         message.linear_acceleration_covariance = received.linear_acceleration_covariance
-        return imu_values(received)
+        return sample.values
 
     def _publish(self, pair: ImuPair) -> None:
         for k, (foot, there) in enumerate(zip(FEET, pair.present, strict=True)):

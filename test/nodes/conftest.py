@@ -43,10 +43,10 @@ class Bench:
     """Nodes of one test on one executor."""
 
     def __init__(self, context):
-        from rclpy.executors import SingleThreadedExecutor
+        from dualfoot_ros.nodes.ros.executor import Executor
 
         self.context = context
-        self._executor = SingleThreadedExecutor(context=context)
+        self._executor = Executor(context=context)
         self._nodes = []
 
     def add(self, kind, values=None, **options):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib
+import importlib.util
 import subprocess
 import sys
 import threading
@@ -18,7 +18,8 @@ class BackgroundEngine:
     """Gets the compiled kernel ready.
 
     A cold cache is filled by another process, so that the compiler never competes with the live
-    path for the interpreter; loading from a warm cache takes about a second in a thread.
+    path for the interpreter.  Loading from a warm cache takes some ms, or half a second where
+    numba has to do it.
     """
 
     def __init__(self) -> None:
@@ -38,7 +39,8 @@ class BackgroundEngine:
 
     def _prepare(self) -> None:
         try:
-            importlib.import_module("numba")
+            if importlib.util.find_spec("numba") is None:
+                return
             directory = usable_cache()
             if directory is not None and not (directory / READY).exists():
                 # A session of its own: Ctrl-C ends the caller only, and the cache is filled.

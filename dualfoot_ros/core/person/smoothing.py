@@ -55,6 +55,7 @@ class Smoother:
         # before: forward, left, up (m), turn (rad)
         self._rows: deque[tuple[float, ...]] = deque()
         self._last_ns: int | None = None
+        self._stamps_ns = 0  # sum of the stamps that are kept
 
     @property
     def lag_s(self) -> float:
@@ -65,6 +66,7 @@ class Smoother:
         """Forget everything: the window fills anew."""
         self._kept.clear()
         self._rows.clear()
+        self._stamps_ns = 0
 
     def add(self, person: PersonEstimate, moved: bool = False) -> SmoothedPerson | None:
         """Take an estimate; return the smoothed one if it is due, None while the window fills.
@@ -78,10 +80,11 @@ class Smoother:
         move = (0.0, 0.0, 0.0, 0.0) if moved or not kept else _move(kept[-1], person)
         self._rows.append((float(person.heading), *person.position.tolist(), *move))
         kept.append(person)
+        self._stamps_ns += person.stamp_ns
         if person.stamp_ns - kept[0].stamp_ns < self._window_ns:
             return None
         while person.stamp_ns - kept[1].stamp_ns >= self._window_ns:
-            kept.popleft()
+            self._stamps_ns -= kept.popleft().stamp_ns
             self._rows.popleft()
         if self._last_ns is not None and person.stamp_ns - self._last_ns < self._period_ns:
             return None
@@ -91,9 +94,8 @@ class Smoother:
     def _mean(self) -> SmoothedPerson:
         """Return the mean over the window."""
         kept, rows = self._kept, np.array(self._rows)
-        start_ns = kept[0].stamp_ns
-        middle_ns = start_ns + sum(p.stamp_ns - start_ns for p in kept) // len(kept)
-        seconds = (kept[-1].stamp_ns - start_ns) * 1e-9
+        middle_ns = self._stamps_ns // len(kept)
+        seconds = (kept[-1].stamp_ns - kept[0].stamp_ns) * 1e-9
         velocity = rows[1:, 4:].sum(axis=0) / seconds
         middle = kept[len(kept) // 2]
         to_body = about_z(-middle.heading)

@@ -17,10 +17,17 @@ def matrices(cells: FloatArray) -> FloatArray:
     return cells.reshape(*cells.shape[:-1], 3, 3)
 
 
+def stance_nis(row: FloatArray, foot: int) -> float | None:
+    """Return the NIS of the zero-velocity update in a row, if there is one."""
+    if not row[foot * lay.O_FOOT + lay.O_STANCE]:
+        return None
+    return float(row[foot * lay.O_FOOT + lay.O_ZUPT + 12])
+
+
 def zupt_event(row: FloatArray, foot: int, stamp_ns: int) -> Event | None:
     """Return the zero-velocity update in a row, if there is one."""
-    o = foot * lay.O_FOOT + lay.O_ZUPT
-    if not row[foot * lay.O_FOOT + lay.O_STANCE]:
+    o, nis = foot * lay.O_FOOT + lay.O_ZUPT, stance_nis(row, foot)
+    if nis is None:
         return None
     return Event(
         EventKind.ZUPT,
@@ -29,7 +36,7 @@ def zupt_event(row: FloatArray, foot: int, stamp_ns: int) -> Event | None:
         stamp_ns,
         row[o : o + 3],
         row[o + 3 : o + 12].reshape(3, 3),
-        float(row[o + 12]),
+        nis,
     )
 
 

@@ -12,13 +12,16 @@ from ..rotation import mean_angle, quaternion_yaw
 from ..samples.series import FloatArray
 from .events import Event
 from .facing import NO_FACING, UNKNOWN_VARIANCE, Facing
-from .rows import matrices, zupt_event
+from .rows import matrices, stance_nis, zupt_event
 
 ONE_FOOT_STD = 0.4  # m, of the person about one foot
 POSE_ROWS = np.concatenate([np.arange(3) + start for start in (lay.E_POS, lay.E_ATT)])
 POSE_SIGNS = np.outer(np.repeat([1.0, -1.0], 3), np.repeat([1.0, -1.0], 3))
 # position error, rotation error = -phi
 MEAN_ROWS = np.concatenate([np.arange(3) + start for start in (lay.E_POS, lay.E_ATT, lay.E_VEL)])
+# Where these parts are in a block, and in each of the three blocks.
+POSE_PLACES = lay.ROW * POSE_ROWS[:, None] + POSE_ROWS
+MEAN_PLACES = lay.BLOCK * np.arange(3)[:, None, None] + lay.ROW * MEAN_ROWS[:, None] + MEAN_ROWS
 MEAN_SIGNS = np.outer(np.repeat([1.0, -1.0, 1.0], 3), np.repeat([1.0, -1.0, 1.0], 3))
 
 
@@ -129,6 +132,10 @@ class Update:
         zupts = (zupt_event(self.row, foot, self.stamp_ns) for foot in range(2))
         return (*(event for event in zupts if event is not None), *self._noted)
 
+    def stance_nis(self, foot: int) -> float | None:
+        """Return the NIS of the zero-velocity update of foot 0 or 1; None without one."""
+        return None if self.row is None else stance_nis(self.row, foot)
+
     @property
     def announced(self) -> tuple[Event, ...]:
         """The events without the zero-velocity updates (cheap: most epochs have none)."""
@@ -205,7 +212,7 @@ def mean_covariance(blocks: FloatArray, shares: tuple[float, float] = (0.5, 0.5)
     ``blocks`` (3 BLOCK,) are the covariances of the left and the right foot, and the cross part;
     ``shares`` what each foot counts in the mean.
     """
-    own, other, cross = blocks.reshape(3, lay.ERRORS, lay.ROW)[:, MEAN_ROWS[:, None], MEAN_ROWS]
+    own, other, cross = blocks.take(MEAN_PLACES)
     a, b = shares
     mean: FloatArray = (a * a * own + b * b * other + a * b * (cross + cross.T)) * MEAN_SIGNS
     return mean
@@ -217,5 +224,5 @@ def pose_part(block: FloatArray) -> FloatArray:
     The filter's attitude error turns the estimate back to the truth, C_hat = (I - [phi x]) C; the
     rotation by which the estimate exceeds the truth is -phi, hence the signs of the cross part.
     """
-    pose: FloatArray = block[POSE_ROWS[:, None], POSE_ROWS] * POSE_SIGNS
+    pose: FloatArray = block.take(POSE_PLACES) * POSE_SIGNS
     return pose

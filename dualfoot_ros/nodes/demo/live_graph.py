@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 import rclpy
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
@@ -24,6 +23,7 @@ from ..inputs.field_topics import TOPICS as MAGNETIC
 from ..inputs.increments_topics import TOPICS as KINDS
 from ..inputs.pressure_topics import TOPICS
 from ..replay import ReplayNode
+from ..ros.executor import Executor
 from ..ros.program import destroy
 from ..time_sync import TimeSyncNode
 from .collector import CollectorNode
@@ -127,7 +127,7 @@ class LiveGraph:
         DualFootError
             When the bag was not played to its end.
         """
-        executor = SingleThreadedExecutor(context=self.context)
+        executor = Executor(context=self.context)
         try:
             for node in self._nodes:
                 executor.add_node(node)
@@ -141,7 +141,7 @@ class LiveGraph:
                 f"{self.replay.total} samples"
             )
 
-    def _spin(self, executor: SingleThreadedExecutor, progress: Progress) -> None:
+    def _spin(self, executor: Executor, progress: Progress) -> None:
         state: tuple[int, ...] = ()
         since = time.monotonic()
         while time.monotonic() - since < PATIENCE_S:

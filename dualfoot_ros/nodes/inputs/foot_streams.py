@@ -12,8 +12,8 @@ from ...core import FEET, FloatArray, ImuPair
 from ...settings import InputConfig
 from ...timing import Aligner, AlignerConfig, DeviceClockConfig, StampConfig
 from ..ros import qos
+from ..ros.cdr_imu import ImuBytes
 from ..ros.declared_parameters import group
-from ..ros.messages import to_ns
 from ..ros.status import Status
 from ..ros.watched_input import InputMonitor, Watched, WatchedInput
 from .foot_states import FootStates
@@ -22,7 +22,7 @@ from .stamp_gap import StampGap
 from .stamper import Stamper
 from .topic_search import TopicSearch
 
-ReadSample = Callable[[str, Imu, int], FloatArray]
+ReadSample = Callable[[str, ImuBytes, int], FloatArray]
 RAW = "imu/data_raw"
 CHOOSE = f"--ros-args -r left/{RAW}:=/TOPIC -r right/{RAW}:=/TOPIC"
 TakePair = Callable[[ImuPair], None]
@@ -86,6 +86,7 @@ class FootStreams:
                 profile,
                 remedy=remedy,
                 latency_s=config.latency,
+                raw=True,
             )
             for foot in feet
         }
@@ -94,12 +95,13 @@ class FootStreams:
         self.search = TopicSearch(node, self.inputs, usual, CHOOSE) if raw else None
         self.monitor = InputMonitor(node, [*self.inputs.values(), *also], config)
 
-    def _receiver(self, foot: str) -> Callable[[Imu], None]:
-        return lambda message: self.receive(foot, message)
+    def _receiver(self, foot: str) -> Callable[[bytes], None]:
+        return lambda data: self.receive(foot, data)
 
-    def receive(self, foot: str, message: Imu) -> None:
-        """Take the newest message of ``foot``."""
-        arrival_ns, header_ns = self.inputs[foot].arrival_ns, to_ns(message.header.stamp)
+    def receive(self, foot: str, data: bytes) -> None:
+        """Take the newest message of ``foot``, a serialized ``sensor_msgs/Imu``."""
+        message = ImuBytes(data)
+        arrival_ns, header_ns = self.inputs[foot].arrival_ns, message.stamp_ns
         stamp_ns = self.stamper.stamp(foot, header_ns, arrival_ns)
         if stamp_ns is None:
             return

@@ -3,17 +3,51 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
 
 from ...core import METHODS, DualFootTracker, FloatArray
-from ...inspection import Finding, Stretch, stretch_findings
+from ...inspection import (
+    SIGNALS_S,
+    WALK_S,
+    Finding,
+    Stretch,
+    signal_findings,
+    track_findings,
+)
+from ...recording import Recording
 from ...timing import Aligner
 from ..ros.status import Status
 
-EVERY_NS = 4_000_000_000  # of data, between inspections of a stream that is new
-LATER_NS = 15_000_000_000  # and of one that was found good OFTEN times
-OFTEN = 8
+OFTEN = 4  # good inspections, after which they are rarer
 KEPT = 2  # inspections for which a finding stays, so that it does not come and go
+
+
+@dataclass
+class Inspection:
+    """One kind of inspection: of how long a stretch (s), and after how much new data (s).
+
+    ``later_s`` holds for streams that were found good OFTEN times.
+    """
+
+    find: Callable[[Recording], Iterable[Finding]]
+    length_s: float
+    every_s: float
+    later_s: float
+    checked_ns: int = 0
+    good: int = 0
+    recent: list[Sequence[Finding]] = field(default_factory=list)
+
+    def is_due(self, newest_ns: int) -> bool:
+        """Return whether there is enough new data; ``newest_ns`` is its newest stamp."""
+        every_s = self.every_s if self.good < OFTEN else self.later_s
+        return newest_ns < self.checked_ns or newest_ns - self.checked_ns >= 1e9 * every_s
+
+    def inspect(self, stretch: Recording) -> None:
+        """Take the findings on ``stretch``."""
+        found = tuple(self.find(stretch))
+        self.good = 0 if found else self.good + 1
+        self.recent = [*self.recent, found][-KEPT:]
 
 
 class StreamCheck:
@@ -29,9 +63,9 @@ class StreamCheck:
         self._clocks_set = aligner.clocks_set
         self._stretch = Stretch()
         self._worker: threading.Thread | None = None
-        self._checked_ns = 0
-        self._good = 0
-        self._recent: list[Sequence[Finding]] = []
+        self._signals = Inspection(signal_findings, SIGNALS_S, 4.0, 15.0)
+        # It costs four times as much, and tells little before there are turns.
+        self._walk = Inspection(self._find_in_walk, WALK_S, 15.0, WALK_S)
 
     def add(self, foot: str, stamp_ns: int, values: FloatArray) -> None:
         """Take specific force and angular rate (6,) of one sample."""
@@ -42,7 +76,7 @@ class StreamCheck:
         self._stretch.clear()
 
     def describe(self, status: Status) -> None:
-        """Add the findings of the last inspections; begin another one when it is due."""
+        """Add the findings of the last inspections; begin those that are due."""
         if self._aligner.clocks_set != self._clocks_set:
             self._clocks_set = self._aligner.clocks_set
             self.reset()  # stamps from before do not belong to those since
@@ -50,7 +84,7 @@ class StreamCheck:
         for finding in self._findings():
             if finding.key not in known:
                 status.note(finding)
-        if self._is_due():
+        if self._worker is None or not self._worker.is_alive():
             self._begin()
 
     def wait(self) -> None:
@@ -61,28 +95,32 @@ class StreamCheck:
     def _findings(self) -> list[Finding]:
         """Return the findings of the last inspections, each once, the newest words first."""
         found: dict[object, Finding] = {}
-        for findings in reversed(self._recent):
-            for finding in findings:
-                found.setdefault(finding.key, finding)
+        for inspection in (self._signals, self._walk):
+            for findings in reversed(inspection.recent):
+                for finding in findings:
+                    found.setdefault(finding.key, finding)
         return list(found.values())
 
-    def _is_due(self) -> bool:
-        if self._worker is not None and self._worker.is_alive():
-            return False
-        newest_ns = self._stretch.newest_ns
-        every_ns = EVERY_NS if self._good < OFTEN else LATER_NS
-        return newest_ns < self._checked_ns or newest_ns - self._checked_ns >= every_ns
-
     def _begin(self) -> None:
-        stretch = self._stretch.take()
-        self._checked_ns = self._stretch.newest_ns
-        one_shoe = METHODS[self._tracker.config.method].sensors_on_one_shoe
-        track = self._tracker.engine == "compiled" and not one_shoe
+        """Begin the inspections that are due, in one thread."""
+        newest_ns = self._stretch.newest_ns
+        due = [each for each in (self._signals, self._walk) if each.is_due(newest_ns)]
+        if not due:
+            return
+        taken = [(each, self._stretch.take(each.length_s)) for each in due]
+        for each in due:
+            each.checked_ns = newest_ns
 
         def inspect() -> None:
-            found = tuple(stretch_findings(stretch, self._tracker.config, track=track))
-            self._good = 0 if found else self._good + 1
-            self._recent = [*self._recent, found][-KEPT:]
+            for each, stretch in taken:
+                each.inspect(stretch)
 
         self._worker = threading.Thread(target=inspect, name="stream_check")
         self._worker.start()
+
+    def _find_in_walk(self, stretch: Recording) -> Iterable[Finding]:
+        """Return what the tracks show, once there is a kernel that is fast enough."""
+        one_shoe = METHODS[self._tracker.config.method].sensors_on_one_shoe
+        if self._tracker.engine != "compiled" or one_shoe:
+            return ()
+        return track_findings(stretch, self._tracker.config)

@@ -80,9 +80,8 @@ class FusionReport:
         self._phase, self._stamp_ns = update.phase, update.stamp_ns
         if update.row is not None:
             self._stamps_ns.append(update.stamp_ns)
-        zupts = {e.foot: e.nis for e in update.events if e.kind is EventKind.ZUPT}
-        for foot in FEET:
-            self._add_stance(foot, update, zupts.get(foot))
+        for k, foot in enumerate(FEET):
+            self._add_stance(foot, update, update.stance_nis(k))
 
     def _add_stance(self, foot: str, update: Update, nis: float | None) -> None:
         self._stance[foot] = nis is not None

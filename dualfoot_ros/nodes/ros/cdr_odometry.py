@@ -47,6 +47,7 @@ class OdometryBytes:
     pose_covariance : (6, 6), to be written to
     linear, angular : (3,) m/s and rad/s in the child frame, to be written to
     twist_covariance : (6, 6), to be written to
+    twist_variances : (6,), the diagonal of it
     """
 
     def __init__(self, frame_id: str, child_frame_id: str) -> None:
@@ -63,7 +64,7 @@ class OdometryBytes:
         self.position, self.quaternion = values[:3], values[3:7]
         self.pose_covariance = values[7:43].reshape(6, 6)
         self.linear, self.angular = values[43:46], values[46:49]
-        self.twist_covariance = values[49:].reshape(6, 6)
+        self.twist_covariance, self.twist_variances = values[49:].reshape(6, 6), values[49::7]
 
     def stamp(self, stamp_ns: int) -> None:
         """Set the stamp."""

@@ -22,7 +22,6 @@ from .cdr_odometry import OdometryBytes
 
 SECOND = 1_000_000_000
 LEAST_NORM = 1e-6  # of a quaternion; a smaller one is none
-RATES, LEVEL_RATES = [3, 4, 5], [3, 4]  # rows of a twist's covariance
 ROLLING_VARIANCE = 1.0e3  # (rad/s)^2; how the person rolls and pitches is not estimated
 
 
@@ -78,7 +77,7 @@ def fill_foot(
     message.linear[:] = to_body @ foot.velocity
     message.angular[:] = foot.angular_rate
     message.twist_covariance[:3, :3] = to_body @ foot.twist_covariance() @ to_body.T
-    message.twist_covariance[RATES, RATES] = rate_variance
+    message.twist_variances[3:] = rate_variance
 
 
 def fill_person(message: OdometryBytes, person: PersonEstimate) -> None:
@@ -109,8 +108,8 @@ def _set_level_twist(
     """Put what is known of a twist into it: of roll and pitch rate, nothing."""
     message.angular[2] = yaw_rate
     message.twist_covariance[:3, :3] = covariance
-    message.twist_covariance[LEVEL_RATES, LEVEL_RATES] = ROLLING_VARIANCE
-    message.twist_covariance[5, 5] = variance
+    message.twist_variances[3:5] = ROLLING_VARIANCE
+    message.twist_variances[5] = variance
 
 
 def pose_of(pose: Pose) -> tuple[FloatArray, FloatArray]:

@@ -16,15 +16,17 @@ from dataclasses import dataclass
 
 import rclpy
 from rclpy.exceptions import ParameterException
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 
 from ...core import DualFootError, ParameterSpec
+from .executor import Executor
 
 SOURCE_LINE = re.compile(r" ?, at \S+:\d+")  # where in rcl's own source an error was found
 STOPPED = (KeyboardInterrupt, ExternalShutdownException)
+SWITCH_S = 0.5e-3  # for which another thread may hold up a sample; 5 ms is Python's own
 
 
 @dataclass(frozen=True)
@@ -133,31 +135,20 @@ def in_one_line(error: Exception) -> str:
     return SOURCE_LINE.sub("", " ".join(str(error).split()))
 
 
-class _Executor(SingleThreadedExecutor):
-    """One that goes without a word when a signal has ended the context before it is made.
-
-    rclpy's destructor reads what its constructor had no time to set, and Python prints that.
-    """
-
-    _sigint_gc = None
-
-
 def _spin(graph: Graph) -> None:
-    executor = _Executor()
+    sys.setswitchinterval(SWITCH_S)
+    executor = Executor()
     try:
         for node in graph.nodes:
             executor.add_node(node)
-        if graph.done is None:
-            executor.spin()
-        else:
-            _spin_until(graph.done, executor)
+        _spin_until(graph.done or Future(), executor)
     finally:
         _ignore_signals()
         executor.shutdown()
         destroy(graph.nodes)
 
 
-def _spin_until(done: Future, executor: SingleThreadedExecutor) -> None:
+def _spin_until(done: Future, executor: Executor) -> None:
     """Spin until ``done`` is done; raise the error that ended it, if there was one.
 
     The executor's own method for this leaves something on the future for every callback that it

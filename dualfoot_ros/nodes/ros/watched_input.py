@@ -44,6 +44,7 @@ class WatchedInput:
     ``lost`` counts the holes in the publisher's own numbering, which no queue hides.
     ``arrival_ns`` is when the newest message came from the network, whatever time it then spent
     in the queue; with ``use_sim_time`` it is the simulated time at which it is taken out.
+    ``callback`` gets each message, as its bytes where ``raw``.
     ``remedy`` is that of the finding where a publisher is there and silent.
 
     A message that has waited in the queue for more than ``latency_s`` (0: any time) is dropped,
@@ -60,6 +61,7 @@ class WatchedInput:
         *,
         remedy: str = "",
         latency_s: float = 0.0,
+        raw: bool = False,
     ) -> None:
         self.received = self.lost = self.dropped = 0
         self._latency_ns, self._dropping = round(latency_s * 1e9), False
@@ -67,14 +69,15 @@ class WatchedInput:
         self.arrival_ns = 0
         self.last_s = self._free_s = time.monotonic()
         self._node, self._callback, self._profile, self._remedy = node, callback, profile, remedy
-        self._type, self._type_name = message_type, _type_name(message_type)
+        self._type, self._type_name, self._raw = message_type, _type_name(message_type), raw
         self._subscription = self._subscribe(topic)
 
     def _subscribe(self, topic: str) -> Any:
         # rclpy's own warning of an incompatible QoS is left out: `_find_fault` says more.
         silent = SubscriptionEventCallbacks(use_default_callbacks=False)
+        how = {"event_callbacks": silent, "raw": self._raw}
         return self._node.create_subscription(
-            self._type, topic, self._receive, self._profile, event_callbacks=silent
+            self._type, topic, self._receive, self._profile, **how
         )
 
     def move(self, topic: str) -> None:

@@ -14,7 +14,7 @@ from dualfoot_ros.nodes.imu_adapter import ImuAdapterNode
 from dualfoot_ros.nodes.ros.messages import imu_values
 from dualfoot_ros.settings.nodes import CovarianceConfig, UnitConfig
 
-from ..samples import STANDING, imu
+from ..samples import STANDING, imu, imu_bytes
 from ..test_imu_adapter import relayed
 
 BIAS = np.array([0.1, -0.2, 0.3])
@@ -95,7 +95,7 @@ def test_fusion_corrects_each_foot_before_anything_else(bench, both, monkeypatch
         node.streams.aligner, "push", lambda foot, _, v, *__: seen.update({foot: v}) or []
     )
     for foot in ("left", "right"):
-        node.streams.receive(foot, imu(1))
+        node.streams.receive(foot, imu_bytes(1))
     expected = np.concatenate([MATRIX @ (STANDING[:3] - BIAS), STANDING[3:]])
     np.testing.assert_allclose(seen["left"], expected, atol=1e-9)
     expected = np.concatenate([STANDING[:3], STANDING[3:] - 0.1 * BIAS])

@@ -9,12 +9,11 @@ from rclpy.node import Node
 from dualfoot_ros.inspection import FindingKind
 from dualfoot_ros.nodes.inputs.foot_streams import FootStreams
 from dualfoot_ros.nodes.ros.declared_parameters import declare
-from dualfoot_ros.nodes.ros.messages import imu_values
 from dualfoot_ros.nodes.ros.status import ERROR, Status
 from dualfoot_ros.settings import node_specs
 from dualfoot_ros.timing import StampConfig
 
-from ..samples import STANDING, STEP_NS, imu
+from ..samples import STANDING, STEP_NS, imu_bytes
 
 FEET = ("left", "right")
 
@@ -36,11 +35,11 @@ class Bench:
 
     def _read_sample(self, foot, message, stamp_ns):
         self.read.append((foot, stamp_ns))
-        return imu_values(message)
+        return message.values
 
     def feed(self, foot, *stamps, values=STANDING):
         for stamp_ns in stamps:
-            self.streams.receive(foot, imu(stamp_ns, values))
+            self.streams.receive(foot, imu_bytes(stamp_ns, values))
 
     def status(self):
         status = Status()
@@ -109,9 +108,11 @@ def test_a_reset_forgets_what_waits_for_the_other_foot(feet):
 def test_the_report_has_inputs_clocks_and_stamps(bench):
     feet = Bench(bench, StampConfig(left="device"), **{"input.silence": 0.1})
     feet.feed("right", 10**9)
-    bench.until(lambda: feet.status().level == ERROR, "silence")
+    silent = FindingKind.NO_PUBLISHER
+    bench.until(lambda: len(list(feet.status().of_kind(silent))) == len(FEET), "silence")
     status = feet.status()
-    assert {finding.about for finding in status.of_kind(FindingKind.NO_PUBLISHER)} == {
+    assert status.level == ERROR
+    assert {finding.about for finding in status.of_kind(silent)} == {
         "/left/imu/data_raw",
         "/right/imu/data_raw",
     }

@@ -10,7 +10,7 @@ from dualfoot_ros.nodes.time_sync import TimeSyncNode
 from dualfoot_ros.simulation.arrivals import BleLinkConfig, arrivals
 from dualfoot_ros.timing import DeviceClockConfig, StampConfig
 
-from ..samples import imu
+from ..samples import imu, imu_bytes
 
 STEP_NS = 10_000_000
 HOUR_NS = 3600 * 10**9
@@ -105,7 +105,7 @@ def test_fusion_takes_the_policies_for_raw_streams_and_not_again_for_synchronise
     for sync in ("internal", "external"):
         node = bench.add(FusionNode, {"sync": sync, "stamping.right_offset": 2.0}, namespace=sync)
         node.streams.aligner.push = lambda foot, stamp_ns, *_: seen.append(stamp_ns) or []
-        node.streams.receive("right", imu(7))
+        node.streams.receive("right", imu_bytes(7))
     assert seen == [2 * 10**9 + 7, 7]
 
 
@@ -116,7 +116,7 @@ def test_no_node_hands_on_a_sample_before_the_clock_of_its_device_is_known(bench
     node.streams.aligner.push = lambda foot, stamp_ns, *_: seen.append(stamp_ns) or []
     for k in range(600):
         node.streams.inputs["left"].arrival_ns = HOUR_NS + k * STEP_NS
-        node.streams.receive("left", imu(k * STEP_NS))
+        node.streams.receive("left", imu_bytes(k * STEP_NS))
     begun = 600 - len(seen)
     assert 100 <= begun <= 300 and node.streams.stamper.counters["settling"] == begun
     assert seen[0] == pytest.approx(HOUR_NS + begun * STEP_NS, abs=5_000_000)

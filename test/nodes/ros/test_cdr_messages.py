@@ -6,9 +6,10 @@ from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry, Path
 from rclpy.serialization import deserialize_message, serialize_message
 
+from dualfoot_ros.nodes.ros.cdr_imu import ImuBytes
 from dualfoot_ros.nodes.ros.cdr_odometry import OdometryBytes
 from dualfoot_ros.nodes.ros.cdr_path import PathBytes, PathPose
-from dualfoot_ros.nodes.ros.messages import set_pose, set_time
+from dualfoot_ros.nodes.ros.messages import new_imu, set_imu_values, set_pose, set_time
 
 STAMP = 1_795_912_595_012_154_974
 FRAMES = [("odom", "left_foot"), ("o", "b"), ("", ""), ("längs/odom", "base_footprint")]
@@ -74,3 +75,39 @@ def test_a_path_is_the_message_of_rclpy(frame):
         assert_same(path.data(poses[5]), path_message(frame, [*kept, poses[5]]))
     path.replace(poses[:2])
     assert_same(path.data(None), path_message(frame, poses[:2]))
+
+
+def swapped(data):
+    """Return an Imu message with the order of the bytes of the other kind of processor."""
+    body, out, at = data[4:], bytearray(b"\0\0\0\0"), 0
+    length = int.from_bytes(body[8:12], "little")
+    while at < len(body):
+        if at == 12:
+            out += body[12 : 12 + length]
+            at += length
+            out += bytes(-at % 8)
+            at += -at % 8
+        size = 4 if at < 12 else 8
+        out += body[at : at + size][::-1]
+        at += size
+    return bytes(out)
+
+
+@pytest.mark.parametrize("other_order", [False, True])
+@pytest.mark.parametrize("frame", ["", "i", "imu", "imu1", "left_imu", "längs/imu", 99 * "x"])
+def test_a_sample_is_read_from_bytes_as_from_the_message_of_rclpy(frame, other_order):
+    message = new_imu(frame)
+    set_time(message.header.stamp, STAMP)
+    message.orientation_covariance = numbers(9, 1)
+    message.angular_velocity_covariance = numbers(9, 2)
+    message.linear_acceleration_covariance = numbers(9, 3)
+    values = np.array([1.0, -2.0, np.nan, -np.inf, -0.0, 5e-324])
+    set_imu_values(message, values)
+    data = serialize_message(message)
+    read = ImuBytes(swapped(data) if other_order else data)
+    assert read.stamp_ns == STAMP
+    assert read.values.tobytes() == values.tobytes()
+    assert read.message.header == message.header
+    np.testing.assert_array_equal(
+        read.message.linear_acceleration_covariance, message.linear_acceleration_covariance
+    )

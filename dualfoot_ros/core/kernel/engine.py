@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import (
+    considered_states,
     considered_update,
     covariance,
     detector,
@@ -20,13 +21,16 @@ from . import (
     measurement_update,
     strapdown,
     turn,
+    zero_velocity,
 )
 
 MODULES = (
     strapdown,
     covariance,
+    considered_states,
     considered_update,
     measurement_update,
+    zero_velocity,
     detector,
     floor,
     epoch,

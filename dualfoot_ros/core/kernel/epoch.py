@@ -74,8 +74,8 @@ from .layout import (
     Z_LEFT,
     ZUPT_INFO,
 )
-from .measurement_update import zupt
 from .strapdown import mechanize, orthonormalise
+from .zero_velocity import zupt
 
 ORTHONORMAL_EVERY = 32768  # epochs, over which rounding turns an attitude by 1e-13
 

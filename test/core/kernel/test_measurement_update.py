@@ -11,7 +11,7 @@ from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.joint_estimate import HeadingCorrection, JointEstimate
 from dualfoot_ros.core.kernel import interpreted
 from dualfoot_ros.core.kernel import layout as lay
-from dualfoot_ros.core.kernel.measurement_update import zupt
+from dualfoot_ros.core.kernel.zero_velocity import zupt
 from dualfoot_ros.core.kernel.strapdown import mechanize
 
 from ..dense import AS_THE_PAPER, considering, joseph

@@ -7,12 +7,14 @@ Each writes P_.c, a column of JOINT a state, to S_PC, and rows [P_cc, P_c H'] to
 """
 
 from .layout import (
+    CONSIDERED,
     CONSIDERED_FOOT,
     DIAGONAL,
     E_ATT,
     E_BG,
     E_POS,
     JOINT,
+    PLACE,
     PLL,
     PLR,
     PRR,
@@ -41,6 +43,8 @@ def considered_state(k):
 
 def gather_left(w, state, column):
     """Write P times an error state of the left foot to ``column`` (JOINT)."""
+    state &= PLACE
+    column &= PLACE
     for j in range(ROW):
         w[column + j] = w[PLL + ROW * state + j]
         w[column + SIDE + j] = w[PLR + ROW * state + j]
@@ -48,6 +52,8 @@ def gather_left(w, state, column):
 
 def gather_right(w, state, column):
     """Write P times an error state of the right foot to ``column`` (JOINT)."""
+    state &= PLACE
+    column &= PLACE
     for j in range(15):
         w[column + j] = w[PLR + ROW * j + state]
     w[column + 15] = 0.0
@@ -85,8 +91,10 @@ def consider_foot(w, block, side):
 
     ``block`` is its covariance and ``side`` its place in a vector of both.
     """
+    block &= PLACE
+    side &= PLACE
     for k in range(CONSIDERED_FOOT):
-        state = considered_state(k)
+        state = considered_state(k) & PLACE
         for j in range(ROW):
             w[S_PC + JOINT * k + side + j] = w[block + ROW * state + j]
         for c in range(CONSIDERED_FOOT):
@@ -127,6 +135,9 @@ def consider_common(w):
             a = share_of_right(w, m)
             x = column + common_state(m)
             w[S_CC + ROW_CC * (BIASES + m) + k] = (1.0 - a) * w[x] + a * w[x + SIDE]
+    for k in range(BIASES + COMMON, CONSIDERED):
+        for m in range(ROWS_MOST):
+            put_known(w, k, m, 0.0)
     return BIASES + COMMON
 
 

@@ -8,15 +8,16 @@ their covariance goes on being carried.  With G = P H', S = H G + R,
     X = P_cc^-1 G_c,   G' = G - P_.c X,   S' = S - G_c' X,   K = G' S'^-1,   K_c = 0,
     P <- P - M K' - K M',   M = G - K S / 2,
 
-which is Joseph's form for any gain K: P stays consistent whatever is left out of K.  All loops
-over the columns of G have a fixed length, which is what a compiler needs to take several at once;
-rows that a measurement does not have are zero.
+which is Joseph's form for any gain K: P stays consistent whatever is left out of K.  Rows that a
+measurement does not have are zero, as are states beyond the considered ones.  Loops over the
+states have no branch and much to do, so that a compiler takes several states at once.
 """
 
 import math
 
 from .layout import (
     JOINT,
+    PLACE,
     ROW,
     ROW_CC,
     ROWS_MOST,
@@ -34,6 +35,7 @@ from .layout import (
 )
 
 LEAST_PIVOT = 1e-18  # a variance below it is none: the state is known already
+TOGETHER = 4  # considered states that are taken at once
 
 
 def clear_rest(w, rows):
@@ -56,11 +58,11 @@ def solve_known(w, size):
         row = S_CC + ROW_CC * k
         total = w[row + k]
         pivot = math.sqrt(total) if total > LEAST_PIVOT else 0.0
-        divide(w, row, ROW_CC, pivot)
+        divide(w, row, pivot)
         w[row + k] = pivot
         for i in range(k + 1, size):
             x = w[row + i]
-            for j in range(ROW_CC):
+            for j in range(i, ROW_CC):
                 w[S_CC + ROW_CC * i + j] -= x * w[row + j]
     for i in range(size):
         k = size - 1 - i
@@ -79,13 +81,14 @@ def solve_known(w, size):
         w[row + X_CC + 2] = x2 / pivot if pivot > 0.0 else 0.0
 
 
-def divide(w, start, count, pivot):
-    """Divide ``count`` numbers by ``pivot``; a pivot that is none gives zeros."""
+def divide(w, start, pivot):
+    """Divide the vector (SIDE,) at ``start`` by ``pivot``; a pivot that is none gives zeros."""
+    start &= PLACE
     if pivot > 0.0:
-        for j in range(count):
+        for j in range(SIDE):
             w[start + j] /= pivot
     else:
-        for j in range(count):
+        for j in range(SIDE):
             w[start + j] = 0.0
 
 
@@ -116,29 +119,61 @@ def factor_rest(w, size):
 
 def gain_of(w, size, side):
     """Write the gain K = (G - P_.c X) S'^-1 of the foot at ``side`` to S_K."""
-    for m in range(ROWS_MOST):
-        k = S_K + JOINT * m + side
-        for j in range(SIDE):
-            w[k + j] = w[S_G + JOINT * m + side + j]
-        for c in range(size):
-            x = w[S_CC + ROW_CC * c + X_CC + m]
-            for j in range(SIDE):
-                w[k + j] -= w[S_PC + JOINT * c + side + j] * x
+    side &= PLACE
     for k in range(ROWS_MOST):
-        for m in range(k):
-            take_off(w, S_K + JOINT * k + side, w[S_L + ROWS_MOST * k + m], S_K + JOINT * m + side)
-        divide(w, S_K + JOINT * k + side, SIDE, w[S_L + ROWS_MOST * k + k])
-    for i in range(ROWS_MOST):
-        k = ROWS_MOST - 1 - i
-        for m in range(k + 1, ROWS_MOST):
-            take_off(w, S_K + JOINT * k + side, w[S_L + ROWS_MOST * m + k], S_K + JOINT * m + side)
-        divide(w, S_K + JOINT * k + side, SIDE, w[S_L + ROWS_MOST * k + k])
+        for j in range(SIDE):
+            w[S_K + JOINT * k + side + j] = w[S_G + JOINT * k + side + j]
+    for c in range(0, size, TOGETHER):
+        take_known(w, c, side)
+    divide_by_factor(w, side)
 
 
-def take_off(w, target, factor, source):
-    """Subtract ``factor`` times the vector (SIDE,) at ``source`` from that at ``target``."""
+def take_known(w, c, side):
+    """Subtract P_.c X of the four considered states from ``c`` on from the gain at ``side``."""
+    x = S_CC + ROW_CC * c + X_CC
+    a0, a1, a2 = w[x], w[x + 1], w[x + 2]
+    b0, b1, b2 = w[x + ROW_CC], w[x + ROW_CC + 1], w[x + ROW_CC + 2]
+    x += 2 * ROW_CC
+    c0, c1, c2 = w[x], w[x + 1], w[x + 2]
+    d0, d1, d2 = w[x + ROW_CC], w[x + ROW_CC + 1], w[x + ROW_CC + 2]
+    column = (S_PC + JOINT * c + side) & PLACE
+    gain = (S_K + side) & PLACE
     for j in range(SIDE):
-        w[target + j] -= factor * w[source + j]
+        p = column + j
+        k = gain + j
+        a = w[p]
+        b = w[p + JOINT]
+        g = w[p + 2 * JOINT]
+        d = w[p + 3 * JOINT]
+        w[k] = w[k] - a * a0 - b * b0 - g * c0 - d * d0
+        w[k + JOINT] = w[k + JOINT] - a * a1 - b * b1 - g * c1 - d * d1
+        w[k + 2 * JOINT] = w[k + 2 * JOINT] - a * a2 - b * b2 - g * c2 - d * d2
+
+
+def divide_by_factor(w, side):
+    """Solve K L L' = G' in the place of G', at ``side``; a pivot that is none gives zero."""
+    l10 = w[S_L + ROWS_MOST]
+    l20 = w[S_L + 2 * ROWS_MOST]
+    l21 = w[S_L + 2 * ROWS_MOST + 1]
+    d0 = divisor(w[S_L])
+    d1 = divisor(w[S_L + ROWS_MOST + 1])
+    d2 = divisor(w[S_L + 2 * ROWS_MOST + 2])
+    gain = (S_K + side) & PLACE
+    for j in range(SIDE):
+        k = gain + j
+        z0 = w[k] / d0
+        z1 = (w[k + JOINT] - l10 * z0) / d1
+        z2 = (w[k + 2 * JOINT] - l20 * z0 - l21 * z1) / d2
+        k2 = z2 / d2
+        k1 = (z1 - l21 * k2) / d1
+        w[k] = (z0 - l10 * k1 - l20 * k2) / d0
+        w[k + JOINT] = k1
+        w[k + 2 * JOINT] = k2
+
+
+def divisor(pivot):
+    """Return what divides like ``pivot``; what gives zero when it is none."""
+    return pivot if pivot > 0.0 else math.inf
 
 
 def considering_gain(w, size):
@@ -154,26 +189,30 @@ def considering_gain(w, size):
     return nis
 
 
-def weigh(w, side):
-    """Write M = G - K S / 2 in the place of G, and K y to S_DX, for the foot at ``side``."""
+def weigh(w, side, count):
+    """Write M = G - K S / 2 in the place of G, and K y to S_DX; ``count`` states at ``side``."""
+    side &= PLACE
     for k in range(ROWS_MOST):
         s0 = w[S_S + k]
         s1 = w[S_S + ROWS_MOST + k]
         s2 = w[S_S + 2 * ROWS_MOST + k]
-        for j in range(SIDE):
+        for j in range(count):
             x = S_K + side + j
             total = w[x] * s0 + w[x + JOINT] * s1 + w[x + 2 * JOINT] * s2
             w[S_G + JOINT * k + side + j] -= 0.5 * total
     y0 = w[S_Y]
     y1 = w[S_Y + 1]
     y2 = w[S_Y + 2]
-    for j in range(SIDE):
+    for j in range(count):
         x = S_K + side + j
         w[S_DX + side + j] = w[x] * y0 + w[x + JOINT] * y1 + w[x + 2 * JOINT] * y2
 
 
 def take_products(w, block, a, b):
     """Subtract M K' + K M' from a block, with the rows of the foot at ``a``, columns at ``b``."""
+    block &= PLACE
+    a &= PLACE
+    b &= PLACE
     for i in range(15):
         m0 = w[S_G + a + i]
         m1 = w[S_G + JOINT + a + i]

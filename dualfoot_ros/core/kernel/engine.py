@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import (
+    closest,
     considered_states,
     considered_update,
     covariance,
@@ -19,20 +20,27 @@ from . import (
     epoch,
     floor,
     measurement_update,
+    output_row,
+    stance_correction,
     strapdown,
     turn,
+    watch,
     zero_velocity,
 )
 
 MODULES = (
+    closest,
     strapdown,
     covariance,
     considered_states,
     considered_update,
     measurement_update,
+    stance_correction,
     zero_velocity,
     detector,
     floor,
+    watch,
+    output_row,
     epoch,
     turn,
 )
@@ -46,6 +54,7 @@ ENTRIES = (
     "correct",
     "correct_considering",
     "turn",
+    "closest",
 )
 
 
@@ -63,6 +72,7 @@ class Engine:
     correct: Callable[..., Any]
     correct_considering: Callable[..., Any]
     turn: Callable[..., Any]
+    closest: Callable[..., Any]
 
 
 def kernel_functions() -> dict[str, types.FunctionType]:

@@ -34,13 +34,14 @@ STATE = PLR + BLOCK  # size of a snapshot
 E_POS, E_VEL, E_ATT, E_BG, E_BA = 0, 3, 6, 9, 12
 ERRORS = 15  # error states of one foot
 CONSIDERED_FOOT = 4  # of them that a zero-velocity update takes as known: heading, gyro bias
-CONSIDERED = 10  # most states that a gain takes as known
+CONSIDERED = 12  # most states that a gain takes as known, four at a time
 KNOW_ALL, KNOW_COMMON, KEEP_PLACE = 0, 1, 2  # what an update leaves alone
 ROWS_POS = ROW * E_POS  # from the start of a covariance block to the rows of each of them
 ROWS_VEL = ROW * E_VEL
 ROWS_ATT = ROW * E_ATT
 ROWS_BG = ROW * E_BG
 ROWS_BA = ROW * E_BA
+PLACE = 0xFFFF  # mask of an offset: all are below; masked, none can count from the end of ``w``
 DIAGONAL = ROW + 1  # from an element of the diagonal to the next
 
 # --- constants, set when the tracker is aligned --------------------------------------------------
@@ -133,6 +134,14 @@ Z_LEFT = S_GAMMA + 3
 Z_RIGHT = Z_LEFT + ZUPT_INFO
 GLRT_LEFT = Z_RIGHT + ZUPT_INFO
 GLRT_RIGHT = GLRT_LEFT + 1
+
+# --- the array of `closest`, beside ``w`` --------------------------------------------------------
+M_R = 0  # separation of the feet (3,) m
+M_P = 3  # its covariance (3, 3) m^2
+M_AXES = 12  # principal axes of it, one a row
+M_ALONG, M_VARIANCES, M_AT = 21, 24, 27  # along them: the separation, variances, the solution
+M_DIRECTION, M_PUSH, M_NOISE = 30, 33, 34  # the result: row (3,), innovation m, variance m^2
+M_SIZE = 35
 
 # --- rings (length n[N_RING]) --------------------------------------------------------------------
 RINGS = GLRT_RIGHT + 1  # history first, snapshots after it

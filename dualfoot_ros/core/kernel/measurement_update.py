@@ -99,8 +99,7 @@ def correct_considering(w, rows, kind):
                 w[S_K + JOINT * k + SIDE * side + E_ATT + 2] = 0.0
                 for j in range(3):
                     w[S_K + JOINT * k + SIDE * side + E_POS + j] = 0.0
-    weigh(w, 0)
-    weigh(w, SIDE)
+    weigh(w, 0, JOINT)
     take_products(w, PLL, 0, 0)
     take_products(w, PRR, SIDE, SIDE)
     take_products(w, PLR, 0, SIDE)

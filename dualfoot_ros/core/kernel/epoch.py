@@ -21,6 +21,7 @@ from .layout import (
     NOTICE_SHIFT,
     NOTICE_STOOD,
     NOTICE_WATCH,
+    PLACE,
     POS,
     RINGS,
     S_CDT,
@@ -96,15 +97,17 @@ def hold(w, foot, dt, coupled):
 def save(w, n, epoch):
     """Keep a snapshot of the state before ``epoch``."""
     ring = n[N_RING]
-    o = RINGS + SAMPLE * ring + STATE * (epoch % ring)
-    w[o : o + STATE] = w[:STATE]
+    o = (RINGS + SAMPLE * ring + STATE * (epoch % ring)) & PLACE
+    for k in range(STATE):
+        w[o + k] = w[k]
 
 
 def restore(w, n, epoch):
     """Go back to the state before ``epoch``; it must not be older than n[N_OLDEST]."""
     ring = n[N_RING]
-    o = RINGS + SAMPLE * ring + STATE * (epoch % ring)
-    w[:STATE] = w[o : o + STATE]
+    o = (RINGS + SAMPLE * ring + STATE * (epoch % ring)) & PLACE
+    for k in range(STATE):
+        w[k] = w[o + k]
 
 
 def set_flags(n, foot, first, last, value):

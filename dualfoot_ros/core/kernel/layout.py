@@ -41,7 +41,7 @@ ROWS_VEL = ROW * E_VEL
 ROWS_ATT = ROW * E_ATT
 ROWS_BG = ROW * E_BG
 ROWS_BA = ROW * E_BA
-PLACE = 0xFFFF  # mask of an offset: all are below; masked, none can count from the end of ``w``
+PLACE = 0x7FFFFFFF  # mask of an offset in ``w``: so no compiler need think it negative
 DIAGONAL = ROW + 1  # from an element of the diagonal to the next
 
 # --- constants, set when the tracker is aligned --------------------------------------------------

@@ -3,7 +3,7 @@
 They are heading and gyro bias of both feet (`consider_all`) or of one foot (`consider_foot`), or
 the gyro biases and what the feet have in common of heading and position (`consider_common`), so
 that a constraint between the feet corrects the one against the other and does not move the pair.
-Each writes P_.c, a column of JOINT a state, to S_PC, and rows [P_cc, P_c H'] to S_CC.
+Each writes rows [P_cc, P_c H'] to S_CC, the last one also P_.c to S_PC, a column of JOINT a state.
 """
 
 from .layout import (
@@ -11,6 +11,7 @@ from .layout import (
     CONSIDERED_FOOT,
     DIAGONAL,
     E_ATT,
+    E_BA,
     E_BG,
     E_POS,
     JOINT,
@@ -21,6 +22,7 @@ from .layout import (
     ROW,
     ROW_CC,
     ROWS_MOST,
+    S_A,
     S_CC,
     S_G,
     S_GC,
@@ -31,14 +33,8 @@ from .layout import (
 )
 
 BIASES, COMMON = 6, 4  # gyro biases of both feet; heading and position, in common
+KNOWN = E_ATT + 2  # heading, which gyro bias follows: CONSIDERED_FOOT states of a foot
 LEAST_VARIANCE = 1e-18  # both feet's together, below which they count alike
-
-
-def considered_state(k):
-    """Return the k-th considered error state of a foot: heading, then gyro bias."""
-    if k == 0:
-        return E_ATT + 2
-    return E_BG + k - 1
 
 
 def gather_left(w, state, column):
@@ -68,40 +64,39 @@ def put_known(w, c, m, value):
 
 
 def consider_all(w):
-    """Prepare heading and gyro bias of both feet; return how many states that are."""
+    """Prepare heading and gyro bias of both feet, without P_.c: `knowing_all` reads it from P."""
     for k in range(CONSIDERED_FOOT):
-        gather_left(w, considered_state(k), S_PC + JOINT * k)
-        gather_right(w, considered_state(k), S_PC + JOINT * (CONSIDERED_FOOT + k))
-    for c in range(2 * CONSIDERED_FOOT):
-        for side in range(2):
-            for k in range(CONSIDERED_FOOT):
-                w[S_CC + ROW_CC * c + CONSIDERED_FOOT * side + k] = w[
-                    S_PC + JOINT * c + SIDE * side + considered_state(k)
-                ]
-    for side in range(2):
-        for k in range(CONSIDERED_FOOT):
-            for m in range(ROWS_MOST):
-                value = w[S_G + JOINT * m + SIDE * side + considered_state(k)]
-                put_known(w, CONSIDERED_FOOT * side + k, m, value)
-    return 2 * CONSIDERED_FOOT
+        left = S_CC + ROW_CC * k
+        right = left + ROW_CC * CONSIDERED_FOOT
+        row = ROW * (KNOWN + k) + KNOWN
+        for c in range(CONSIDERED_FOOT):
+            w[left + c] = w[PLL + row + c]
+            w[left + CONSIDERED_FOOT + c] = w[PLR + row + c]
+            w[right + c] = w[PLR + ROW * (KNOWN + c) + KNOWN + k]
+            w[right + CONSIDERED_FOOT + c] = w[PRR + row + c]
+        for m in range(ROWS_MOST):
+            put_known(w, k, m, w[S_G + JOINT * m + KNOWN + k])
+            put_known(w, CONSIDERED_FOOT + k, m, w[S_G + JOINT * m + SIDE + KNOWN + k])
 
 
 def consider_foot(w, block, side):
-    """Prepare heading and gyro bias of one foot, both being uncorrelated; return how many.
+    """Prepare heading and gyro bias of one foot, both being uncorrelated, without P_.c.
 
     ``block`` is its covariance and ``side`` its place in a vector of both.
     """
-    block &= PLACE
-    side &= PLACE
     for k in range(CONSIDERED_FOOT):
-        state = considered_state(k) & PLACE
-        for j in range(ROW):
-            w[S_PC + JOINT * k + side + j] = w[block + ROW * state + j]
         for c in range(CONSIDERED_FOOT):
-            w[S_CC + ROW_CC * k + c] = w[block + ROW * state + considered_state(c)]
+            w[S_CC + ROW_CC * k + c] = w[block + ROW * (KNOWN + k) + KNOWN + c]
         for m in range(ROWS_MOST):
-            put_known(w, k, m, w[S_G + JOINT * m + side + state])
-    return CONSIDERED_FOOT
+            put_known(w, k, m, w[S_G + JOINT * m + side + KNOWN + k])
+
+
+def turn_over(w, first):
+    """Write the rows of the transposed cross block from ``first`` to the gyro bias to S_A."""
+    for i in range(first, E_BA):
+        for j in range(15):
+            w[S_A + ROW * i + j] = w[PLR + ROW * j + i]
+        w[S_A + ROW * i + 15] = 0.0
 
 
 def consider_common(w):

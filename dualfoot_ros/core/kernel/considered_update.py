@@ -15,12 +15,17 @@ states have no branch and much to do, so that a compiler takes several states at
 
 import math
 
+from .considered_states import KNOWN
 from .layout import (
     JOINT,
     PLACE,
+    PLL,
+    PLR,
+    PRR,
     ROW,
     ROW_CC,
     ROWS_MOST,
+    S_A,
     S_CC,
     S_DX,
     S_G,
@@ -118,33 +123,42 @@ def factor_rest(w, size):
 
 
 def gain_of(w, size, side):
-    """Write the gain K = (G - P_.c X) S'^-1 of the foot at ``side`` to S_K."""
+    """Write the gain K = (G - P_.c X) S'^-1 of the foot at ``side`` to S_K, with P_.c at S_PC."""
+    begin_gain(w, side)
+    for c in range(0, size, TOGETHER):
+        take_known(w, c, S_PC + JOINT * c + side, JOINT, side)
+    divide_by_factor(w, side)
+
+
+def begin_gain(w, side):
+    """Write G of the foot at ``side`` to the place of its gain."""
     side &= PLACE
     for k in range(ROWS_MOST):
         for j in range(SIDE):
             w[S_K + JOINT * k + side + j] = w[S_G + JOINT * k + side + j]
-    for c in range(0, size, TOGETHER):
-        take_known(w, c, side)
-    divide_by_factor(w, side)
 
 
-def take_known(w, c, side):
-    """Subtract P_.c X of the four considered states from ``c`` on from the gain at ``side``."""
+def take_known(w, c, column, stride, side):
+    """Subtract P_.c X of four considered states, from ``c`` on, from the gain at ``side``.
+
+    P_.c of them is at ``column``, ``column + stride``, ...
+    """
     x = S_CC + ROW_CC * c + X_CC
     a0, a1, a2 = w[x], w[x + 1], w[x + 2]
     b0, b1, b2 = w[x + ROW_CC], w[x + ROW_CC + 1], w[x + ROW_CC + 2]
     x += 2 * ROW_CC
     c0, c1, c2 = w[x], w[x + 1], w[x + 2]
     d0, d1, d2 = w[x + ROW_CC], w[x + ROW_CC + 1], w[x + ROW_CC + 2]
-    column = (S_PC + JOINT * c + side) & PLACE
+    column &= PLACE
+    stride &= PLACE
     gain = (S_K + side) & PLACE
     for j in range(SIDE):
         p = column + j
         k = gain + j
         a = w[p]
-        b = w[p + JOINT]
-        g = w[p + 2 * JOINT]
-        d = w[p + 3 * JOINT]
+        b = w[p + stride]
+        g = w[p + 2 * stride]
+        d = w[p + 3 * stride]
         w[k] = w[k] - a * a0 - b * b0 - g * c0 - d * d0
         w[k + JOINT] = w[k + JOINT] - a * a1 - b * b1 - g * c1 - d * d1
         w[k + 2 * JOINT] = w[k + 2 * JOINT] - a * a2 - b * b2 - g * c2 - d * d2
@@ -189,43 +203,30 @@ def considering_gain(w, size):
     return nis
 
 
-def weigh(w, side, count):
-    """Write M = G - K S / 2 in the place of G, and K y to S_DX; ``count`` states at ``side``."""
-    side &= PLACE
-    for k in range(ROWS_MOST):
-        s0 = w[S_S + k]
-        s1 = w[S_S + ROWS_MOST + k]
-        s2 = w[S_S + 2 * ROWS_MOST + k]
-        for j in range(count):
-            x = S_K + side + j
-            total = w[x] * s0 + w[x + JOINT] * s1 + w[x + 2 * JOINT] * s2
-            w[S_G + JOINT * k + side + j] -= 0.5 * total
-    y0 = w[S_Y]
-    y1 = w[S_Y + 1]
-    y2 = w[S_Y + 2]
-    for j in range(count):
-        x = S_K + side + j
-        w[S_DX + side + j] = w[x] * y0 + w[x + JOINT] * y1 + w[x + 2 * JOINT] * y2
+def knowing_all(w):
+    """Do what `considering_gain` does for what `consider_all` prepared; return the NIS.
+
+    Heading and gyro bias of a foot are rows of P that follow each other; those of the right foot
+    in the cross block are at S_A (`turn_over`).
+    """
+    solve_known(w, 2 * TOGETHER)
+    nis = factor_rest(w, 2 * TOGETHER)
+    begin_gain(w, 0)
+    take_known(w, 0, PLL + ROW * KNOWN, ROW, 0)
+    take_known(w, TOGETHER, S_A + ROW * KNOWN, ROW, 0)
+    divide_by_factor(w, 0)
+    begin_gain(w, SIDE)
+    take_known(w, 0, PLR + ROW * KNOWN, ROW, SIDE)
+    take_known(w, TOGETHER, PRR + ROW * KNOWN, ROW, SIDE)
+    divide_by_factor(w, SIDE)
+    return nis
 
 
-def take_products(w, block, a, b):
-    """Subtract M K' + K M' from a block, with the rows of the foot at ``a``, columns at ``b``."""
-    block &= PLACE
-    a &= PLACE
-    b &= PLACE
-    for i in range(15):
-        m0 = w[S_G + a + i]
-        m1 = w[S_G + JOINT + a + i]
-        m2 = w[S_G + 2 * JOINT + a + i]
-        k0 = w[S_K + a + i]
-        k1 = w[S_K + JOINT + a + i]
-        k2 = w[S_K + 2 * JOINT + a + i]
-        for j in range(ROW):
-            m = S_G + b + j
-            k = S_K + b + j
-            # the two products of a pair stay the same when i and j change places
-            w[block + ROW * i + j] -= (
-                (m0 * w[k] + k0 * w[m])
-                + (m1 * w[k + JOINT] + k1 * w[m + JOINT])
-                + (m2 * w[k + 2 * JOINT] + k2 * w[m + 2 * JOINT])
-            )
+def knowing_foot(w, block, side):
+    """Do the same for what `consider_foot` prepared."""
+    solve_known(w, TOGETHER)
+    nis = factor_rest(w, TOGETHER)
+    begin_gain(w, side)
+    take_known(w, 0, block + ROW * KNOWN, ROW, side)
+    divide_by_factor(w, side)
+    return nis

@@ -20,11 +20,10 @@ from . import (
     epoch,
     floor,
     measurement_update,
-    output_row,
+    report,
     stance_correction,
     strapdown,
     turn,
-    watch,
     zero_velocity,
 )
 
@@ -39,8 +38,7 @@ MODULES = (
     zero_velocity,
     detector,
     floor,
-    watch,
-    output_row,
+    report,
     epoch,
     turn,
 )

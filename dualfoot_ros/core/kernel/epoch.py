@@ -32,9 +32,15 @@ from .layout import (
     Z_LEFT,
     ZUPT_INFO,
 )
-from .output_row import emit
+from .report import (
+    collect_stand,
+    emit,
+    missing,
+    squared_distance,
+    stands,
+    watch_presence,
+)
 from .strapdown import mechanize, orthonormalise
-from .watch import collect_stand, missing, squared_distance, stands, watch_presence
 from .zero_velocity import zupt
 
 ORTHONORMAL_EVERY = 32768  # epochs, over which rounding turns an attitude by 1e-13

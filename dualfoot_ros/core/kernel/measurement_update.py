@@ -10,8 +10,12 @@ them, truth minus estimate, so they are fed back with the other sign.
 
 import math
 
-from .considered_states import consider_all, consider_common
-from .considered_update import clear_rest, considering_gain, take_products, weigh
+from .considered_states import KNOWN, consider_all, consider_common, turn_over
+from .considered_update import (
+    clear_rest,
+    considering_gain,
+    knowing_all,
+)
 from .layout import (
     BA,
     BG,
@@ -24,6 +28,7 @@ from .layout import (
     JOINT,
     KNOW_ALL,
     KNOW_COMMON,
+    PLACE,
     PLL,
     PLR,
     POS,
@@ -89,7 +94,9 @@ def correct_considering(w, rows, kind):
     """
     clear_rest(w, rows)
     if kind == KNOW_ALL:
-        nis = considering_gain(w, consider_all(w))
+        consider_all(w)
+        turn_over(w, KNOWN)
+        nis = knowing_all(w)
     elif kind == KNOW_COMMON:
         nis = considering_gain(w, consider_common(w))
     else:
@@ -190,3 +197,45 @@ def feed_back_foot(w, foot):
         w[o + BA + i] += w[d + E_BA + i]
     rotation_increment(w, w[d + E_ATT], w[d + E_ATT + 1], w[d + E_ATT + 2])
     rotate_navigation(w, foot)
+
+
+def weigh(w, side, count):
+    """Write M = G - K S / 2 in the place of G, and K y to S_DX; ``count`` states at ``side``."""
+    side &= PLACE
+    for k in range(ROWS_MOST):
+        s0 = w[S_S + k]
+        s1 = w[S_S + ROWS_MOST + k]
+        s2 = w[S_S + 2 * ROWS_MOST + k]
+        for j in range(count):
+            x = S_K + side + j
+            total = w[x] * s0 + w[x + JOINT] * s1 + w[x + 2 * JOINT] * s2
+            w[S_G + JOINT * k + side + j] -= 0.5 * total
+    y0 = w[S_Y]
+    y1 = w[S_Y + 1]
+    y2 = w[S_Y + 2]
+    for j in range(count):
+        x = S_K + side + j
+        w[S_DX + side + j] = w[x] * y0 + w[x + JOINT] * y1 + w[x + 2 * JOINT] * y2
+
+
+def take_products(w, block, a, b):
+    """Subtract M K' + K M' from a block, with the rows of the foot at ``a``, columns at ``b``."""
+    block &= PLACE
+    a &= PLACE
+    b &= PLACE
+    for i in range(15):
+        m0 = w[S_G + a + i]
+        m1 = w[S_G + JOINT + a + i]
+        m2 = w[S_G + 2 * JOINT + a + i]
+        k0 = w[S_K + a + i]
+        k1 = w[S_K + JOINT + a + i]
+        k2 = w[S_K + 2 * JOINT + a + i]
+        for j in range(ROW):
+            m = S_G + b + j
+            k = S_K + b + j
+            # the two products of a pair stay the same when i and j change places
+            w[block + ROW * i + j] -= (
+                (m0 * w[k] + k0 * w[m])
+                + (m1 * w[k + JOINT] + k1 * w[m + JOINT])
+                + (m2 * w[k + 2 * JOINT] + k2 * w[m + 2 * JOINT])
+            )

@@ -1,14 +1,7 @@
 """What a zero-velocity update corrects: all, or no heading and bias, or no place besides."""
 
-from .considered_states import consider_all, consider_foot, considered_state
-from .considered_update import (
-    considering_gain,
-    factor_rest,
-    gain_of,
-    solve_known,
-    take_products,
-    weigh,
-)
+from .considered_states import KNOWN, consider_all, consider_foot, turn_over
+from .considered_update import knowing_all, knowing_foot
 from .layout import (
     C_BIAS_KNOWN_VAR,
     CONSIDERED_FOOT,
@@ -27,7 +20,7 @@ from .layout import (
     S_K,
     SIDE,
 )
-from .measurement_update import factor, feed_back, feed_back_foot
+from .measurement_update import factor, feed_back, feed_back_foot, take_products, weigh
 
 
 def bias_known(w, foot):
@@ -44,7 +37,10 @@ def correct_stance(w, foot, still):
 
     ``still`` leaves the position of the standing ``foot`` and all of the other foot alone as well.
     """
-    nis = considering_gain(w, consider_all(w))
+    consider_all(w)
+    if foot == 0:  # for the right one they are there already
+        turn_over(w, KNOWN)
+    nis = knowing_all(w)
     for side in range(2):
         clear_known(w, SIDE * side)
     if still:
@@ -65,10 +61,8 @@ def correct_stance(w, foot, still):
 
 def correct_alone(w, foot, block, side, still):
     """Do what `correct_stance` does for a foot that is uncorrelated with the other."""
-    size = consider_foot(w, block, side)
-    solve_known(w, size)
-    nis = factor_rest(w, size)
-    gain_of(w, size, side)
+    consider_foot(w, block, side)
+    nis = knowing_foot(w, block, side)
     clear_known(w, side)
     if still:
         clear_place(w, side)
@@ -82,7 +76,7 @@ def clear_known(w, side):
     """Let the gain leave heading and gyro bias of the foot at ``side`` alone."""
     for k in range(ROWS_MOST):
         for c in range(CONSIDERED_FOOT):
-            w[S_K + JOINT * k + side + considered_state(c)] = 0.0
+            w[S_K + JOINT * k + side + KNOWN + c] = 0.0
 
 
 def clear_place(w, side):

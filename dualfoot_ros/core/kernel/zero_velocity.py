@@ -11,6 +11,7 @@ While the feet are uncorrelated (``coupled`` is False) the other foot stays as i
 computed for it; the bits are the same.
 """
 
+from .considered_states import turn_over
 from .layout import (
     C_FOOT,
     C_LEVER,
@@ -65,7 +66,7 @@ def zupt(w, foot, still=False, coupled=True):
     else:
         collect_own(w, PRR, SIDE)
         if coupled:
-            turn_over(w)
+            turn_over(w, E_VEL)
             collect_other(w, S_A, SIDE, 0)
     if not coupled:
         clear_side(w, SIDE * (1 - foot))
@@ -172,14 +173,6 @@ def collect_other(w, block, side, to):
                 + b1 * w[p + ROWS_BG + ROW]
                 + b2 * w[p + ROWS_BG + 2 * ROW]
             )
-
-
-def turn_over(w):
-    """Write the rows of the transposed cross block that H of the right foot meets to S_A."""
-    for i in range(E_VEL, E_BA):
-        for j in range(15):
-            w[S_A + ROW * i + j] = w[PLR + ROW * j + i]
-        w[S_A + ROW * i + 15] = 0.0
 
 
 def clear_side(w, side):

@@ -53,6 +53,8 @@ class GaitHistory:
 
     def stamp(self, epoch: int, default: int = 0) -> int:
         """Return the stamp in ns of ``epoch``, or ``default`` when it is forgotten."""
-        if not self._space.epoch - self._space.ring < epoch <= self._space.epoch:
+        space = self._space
+        newest, ring = space.epoch, space.ring
+        if not newest - ring < epoch <= newest:
             return default
-        return int(self._space.stamps[epoch % self._space.ring])
+        return space.stamps.item(epoch % ring)

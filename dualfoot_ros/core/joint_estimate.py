@@ -123,22 +123,38 @@ class JointEstimate:
 
     def relative_position(self) -> list[float]:
         """Return left minus right position, m."""
-        w = self._space.w
-        return [float(w[lay.POS + i]) - float(w[lay.FOOT + lay.POS + i]) for i in range(3)]
+        w, right = self._space.w, lay.FOOT + lay.POS
+        pairs = zip(w[lay.POS : lay.POS + 3].tolist(), w[right : right + 3].tolist(), strict=True)
+        return [x - y for x, y in pairs]
 
     def relative_covariance(self) -> list[list[float]]:
         """Return the covariance (3, 3) m^2 of left minus right position."""
-        w = self._space.w
+        left, right, cross = (self._corner(block) for block in (lay.PLL, lay.PRR, lay.PLR))
         return [
-            [
-                float(w[lay.PLL + lay.ROW * i + j])
-                + float(w[lay.PRR + lay.ROW * i + j])
-                - float(w[lay.PLR + lay.ROW * i + j])
-                - float(w[lay.PLR + lay.ROW * j + i])
-                for j in range(3)
-            ]
+            [left[i][j] + right[i][j] - cross[i][j] - cross[j][i] for j in range(3)]
             for i in range(3)
         ]
+
+    def _corner(self, block: int) -> list[list[float]]:
+        """Return the positions' part (3, 3) m^2 of a covariance block."""
+        w = self._space.w
+        return [
+            w[start : start + 3].tolist() for start in range(block, block + 3 * lay.ROW, lay.ROW)
+        ]
+
+    def closest(
+        self, r: Sequence[float], p: Sequence[Sequence[float]], c0: float, std: float
+    ) -> tuple[list[float], float, float]:
+        """Return (direction, innovation, noise) that move the state to the least cost of eq. (14).
+
+        ``r`` (3,) m with |r| > c0 is the estimated separation, ``p`` (3, 3) m^2 its covariance.  A
+        hard c0 that the uncertain directions cannot reach gives a zero row: nothing is done.
+        """
+        x = np.empty(lay.M_SIZE)
+        x[: lay.M_AXES] = [*r, *p[0], *p[1], *p[2]]
+        self._engine.closest(x, c0, std)
+        direction: list[float] = x[lay.M_DIRECTION : lay.M_PUSH].tolist()
+        return direction, float(x[lay.M_PUSH]), float(x[lay.M_NOISE])
 
     def variance(self, rows: Sequence[Row]) -> FloatArray:
         """Return H P H' (m, m) of up to three rows, each {error state: coefficient}."""
@@ -165,10 +181,11 @@ class JointEstimate:
         m = len(rows)
         if any(map(observes_height, rows)):
             w[lay.WALKED] = 0.0
-        for i in range(m):
-            if w[lay.S_S + 4 * i] < ROUNDING * self._magnitude(rows[i]):
-                w[lay.S_S + 4 * i] = 0.0
-            w[lay.S_S + 4 * i] += variances[i]
+        own = [w[at : at + lay.BLOCK : lay.DIAGONAL].tolist() for at in (lay.PLL, lay.PRR)]
+        for i, row in enumerate(rows):
+            variance = w.item(lay.S_S + 4 * i)
+            known = variance < ROUNDING * magnitude(row, own[0] + own[1])
+            w[lay.S_S + 4 * i] = (0.0 if known else variance) + variances[i]
             w[lay.S_Y + i] = innovation[i]
         s = w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
         if heading is HeadingCorrection.FULL:
@@ -189,16 +206,6 @@ class JointEstimate:
         w[lay.S_S], w[lay.S_Y] = s, innovation
         return float(self._engine.correct(w, 1))
 
-    def _magnitude(self, row: Row) -> float:
-        """Return the greatest variance that the states of ``row`` could give together."""
-        w, total = self._space.w, 0.0
-        for state, coefficient in row.items():
-            start = lay.PLL if state < lay.ERRORS else lay.PRR
-            total += abs(coefficient) * math.sqrt(
-                max(0.0, w[start + lay.DIAGONAL * (state % lay.ERRORS)])
-            )
-        return total * total
-
     def _collect(self, rows: Sequence[Row]) -> None:
         w = self._space.w
         w[lay.S_H : lay.S_H + lay.ROWS_MOST * lay.JOINT] = 0.0
@@ -207,6 +214,14 @@ class JointEstimate:
                 pad = lay.SIDE - lay.ERRORS if state >= lay.ERRORS else 0
                 w[lay.S_H + lay.JOINT * k + state + pad] = coefficient
         self._engine.collect(w, len(rows))
+
+
+def magnitude(row: Row, variances: Sequence[float]) -> float:
+    """Return the greatest variance that states of ``variances`` (30,) can give ``row``."""
+    total = 0.0
+    for state, coefficient in row.items():
+        total += abs(coefficient) * math.sqrt(max(0.0, variances[state]))
+    return total * total
 
 
 def observes_height(row: Row) -> bool:

@@ -35,6 +35,8 @@ class RollBack:
 
         ``bits`` (2,) are the notices of each foot.
         """
+        if not (bits[0] | bits[1]) & (lay.STANCE_FALSE | lay.SWING_FALSE):
+            return
         space, now = self._space, self._space.epoch
         firsts = []
         for foot in range(2):

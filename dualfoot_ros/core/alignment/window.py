@@ -13,6 +13,7 @@ from ..samples.series import FloatArray
 
 SLIDES = 25  # steps in which a window moves on by its length
 FEWEST_SAMPLES = 5  # of a window
+ROOM = 256  # samples, to begin with
 CORRELATION_S = 0.15  # time over which the angular rate of a standing foot is alike
 
 
@@ -88,26 +89,40 @@ class WindowSlider:
         """Start with no sample."""
         self._length_ns = round(seconds * 1e9)
         self._step_ns = slide_ns(self._length_ns)
-        self._samples: deque[tuple[int, FloatArray]] = deque()
+        self._stamps: deque[int] = deque()
+        self._rows = np.zeros((ROOM, 6))  # the samples, the newest before row ``_stop``
+        self._stop = 0
         self._due_ns: int | None = None
 
     def add(self, stamp_ns: int, values: FloatArray) -> Window | None:
         """Take a sample (6,); return the window that ends with it, when one is due."""
-        samples = self._samples
-        samples.append((stamp_ns, values))
+        stamps = self._stamps
+        self._keep(values)
+        stamps.append(stamp_ns)
         begin_ns = stamp_ns - self._length_ns
-        full = samples[0][0] <= begin_ns
-        while samples[0][0] <= begin_ns:
-            samples.popleft()
-        if not full or len(samples) < FEWEST_SAMPLES:
+        full = stamps[0] <= begin_ns
+        while stamps[0] <= begin_ns:
+            stamps.popleft()
+        if not full or len(stamps) < FEWEST_SAMPLES:
             return None
         if self._due_ns is not None and stamp_ns < self._due_ns:
             return None
         self._due_ns = max(self._due_ns or stamp_ns, stamp_ns - self._step_ns) + self._step_ns
-        block = np.array([sample for _, sample in samples])
+        block = self._rows[self._stop - len(stamps) : self._stop]
         return Window.of(block, stamp_ns, self._length_ns * 1e-9)
+
+    def _keep(self, values: FloatArray) -> None:
+        """Keep a sample (6,) behind the others, which go to the front when there is no room."""
+        if self._stop == len(self._rows):
+            held = self._rows[self._stop - len(self._stamps) :].copy()
+            if 2 * len(held) > len(self._rows):
+                self._rows = np.zeros((2 * len(self._rows), 6))
+            self._rows[: len(held)] = held
+            self._stop = len(held)
+        self._rows[self._stop] = values
+        self._stop += 1
 
     def clear(self) -> None:
         """Forget the samples."""
-        self._samples.clear()
+        self._stamps.clear()
         self._due_ns = None

@@ -11,6 +11,7 @@ else is wrong with the track, as a constraint to a distance that the feet do not
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -103,10 +104,11 @@ class Boarding:
         state = self._space.snapshot(first)
         start = foot * lay.FOOT + lay.VEL
         velocity = state[start : start + 3].copy()
-        block = lay.PLL if foot == 0 else lay.PRR
-        own = state[block : block + lay.BLOCK].reshape(lay.ERRORS, lay.ROW)
-        S = own[lay.E_VEL : lay.E_ATT, lay.E_VEL : lay.E_ATT] + LANDING_STD**2 * np.eye(3)
-        fast = nis_of(velocity, S) > self.gate
+        start = (lay.PLL if foot == 0 else lay.PRR) + lay.ROWS_VEL + lay.E_VEL
+        S = [state[at : at + 3].tolist() for at in range(start, start + 3 * lay.ROW, lay.ROW)]
+        for i in range(3):
+            S[i][i] += LANDING_STD**2
+        fast = nis_of(velocity.tolist(), S) > self.gate
         self._fast = [*self._fast[1:], fast]
         if not fast or float(velocity @ velocity) > FASTEST**2:
             return None
@@ -137,13 +139,12 @@ def alike(one: FloatArray, other: FloatArray) -> bool:
     return float(apart @ apart) < ALIKE**2 * float(mean @ mean)
 
 
-def nis_of(y: FloatArray, S: FloatArray) -> float:
+def nis_of(y: Sequence[float], S: Sequence[Sequence[float]]) -> float:
     """Return y' S^-1 y of an innovation (3,), by the adjugate: the same bits everywhere."""
-    rows = [[float(v) for v in row] for row in S]
-    (a, b, c), (_, e, f), (_, _, i) = rows
+    (a, b, c), (_, e, f), (_, _, i) = S
     minors = [e * i - f * f, c * f - b * i, b * f - c * e]
     determinant = a * minors[0] + b * minors[1] + c * minors[2]
-    u, v, w = (float(x) for x in y)
+    u, v, w = y
     total = minors[0] * u * u + (a * i - c * c) * v * v + (a * e - b * b) * w * w
     total += 2.0 * (minors[1] * u * v + minors[2] * u * w + (b * c - a * f) * v * w)
     return total / determinant if determinant > 0.0 else math.inf

@@ -88,6 +88,7 @@ def _signatures() -> dict[str, Any]:
         "correct": float64(w, int64),
         "correct_considering": float64(w, int64, int64),
         "turn": void(w, int64, int64, float64, float64, w, w),
+        "closest": void(w, float64, float64),
     }
 
 

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 
 from ..joint_estimate import JointEstimate, relative_row
 from ..parameters import parameter
-from .distance_solvers import Matrix, Vector, exact, iterate
+from .distance_solvers import Matrix, Vector, iterate
 from .minimum_moment import AtMinimumDistance, MomentConfig
 
 
@@ -48,7 +48,7 @@ class Idc(AtMinimumDistance):
         """Project by the chosen solver."""
         c0, std = target, self.config.distance_std
         if self.config.solver == "exact":
-            direction, push, noise = exact(r, p, c0, std)
+            direction, push, noise = estimate.closest(r, p, c0, std)
         else:
             direction, push, noise = iterate(r, p, c0, std, self.config.iterations)
         estimate.update([relative_row(direction)], [push], [noise])

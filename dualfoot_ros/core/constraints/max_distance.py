@@ -15,7 +15,7 @@ import numpy as np
 from ..joint_estimate import JointEstimate, Outcome, relative_row
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit
-from .distance_solvers import LEAST_VARIANCE, exact, norm, quadratic
+from .distance_solvers import LEAST_VARIANCE, norm, quadratic
 from .method import Gait, Method, Request
 
 
@@ -64,7 +64,7 @@ class MaxDistance(Method):
         s, error = variance + std * std, distance - bound
         accepted, after = error > 0.0 and variance > LEAST_VARIANCE, None
         if accepted:
-            direction, push, noise = exact(r, p, bound, std)
+            direction, push, noise = estimate.closest(r, p, bound, std)
             estimate.update([relative_row(direction)], [push], [noise])
             after = norm(estimate.relative_position())
         nis = error * error / s if s > 0.0 else float("nan")

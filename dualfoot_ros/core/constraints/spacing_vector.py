@@ -24,7 +24,7 @@ from ..joint_estimate import HeadingCorrection, JointEstimate, Outcome, relative
 from ..kernel.layout import attitude_row
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit, Passing
-from ..samples.series import FloatArray
+from .distance_solvers import dot, norm
 from .learnt_spacing import Spacing
 from .method import Gait, Method, Request, StancePhase
 from .varying_distance import feet_adjacent
@@ -136,33 +136,34 @@ class SpacingVector(Method):
         """Project onto eq. (9), or onto its component across ``heading`` (rad), and in height."""
         config = self.config
         spacing = self.spacing.value_m if spacing is None else spacing
-        left = np.array([-math.sin(heading), math.cos(heading), 0.0])
-        r = np.array(estimate.relative_position())
+        left = [-math.sin(heading), math.cos(heading), 0.0]
+        r = estimate.relative_position()
         directions, targets, stds = self._rows(left, spacing)
-        innovation = np.array(directions) @ r - np.array(targets)
+        found = [dot(direction, r) for direction in directions]
+        innovation = [a - b for a, b in zip(found, targets, strict=True)]
         rows = [self._row(direction, left, spacing) for direction in directions]
         variances = [max(std**2, 1e-12) for std in stds]
         correction = HeadingCorrection(config.heading_correction)
-        s, nis = estimate.update(rows, innovation.tolist(), variances, correction)
+        s, nis = estimate.update(rows, innovation, variances, correction)
         passing = Passing(
-            DistanceLimit(float(np.sqrt((r**2).sum())), spacing),
+            DistanceLimit(norm(r), spacing),
             heading,
-            r.tolist(),
+            r,
             estimate.relative_position(),
-            lateral=float(r @ left),
+            lateral=dot(r, left),
         )
-        return Outcome(innovation, s, nis, True, passing)
+        return Outcome(np.array(innovation), s, nis, True, passing)
 
     def _rows(
-        self, left: FloatArray, spacing: float
+        self, left: list[float], spacing: float
     ) -> tuple[list[list[float]], list[float], list[float]]:
         """Return directions (m, 3), targets (m,) m and standard deviations (m,) m of the rows."""
         config = self.config
         if config.variant == "vector":
             directions = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
-            targets = [float(spacing * left[0]), float(spacing * left[1])]
+            targets = [spacing * left[0], spacing * left[1]]
         else:
-            directions, targets = [left.tolist()], [spacing]
+            directions, targets = [left], [spacing]
         stds = [config.spacing_std] * len(directions)
         if config.height_std > 0.0:
             directions.append([0.0, 0.0, 1.0])
@@ -170,7 +171,7 @@ class SpacingVector(Method):
             stds.append(config.height_std)
         return directions, targets, stds
 
-    def _row(self, direction: list[float], left: FloatArray, spacing: float) -> dict[int, float]:
+    def _row(self, direction: list[float], left: list[float], spacing: float) -> dict[int, float]:
         """Return the row of H along ``direction``; its target turns with the mean heading."""
         row = relative_row(direction)
         if self.config.heading_correction != HeadingCorrection.FULL:

@@ -17,6 +17,7 @@ from .layout import (
     E_BA,
     E_BG,
     E_VEL,
+    PLACE,
     PLL,
     PLR,
     PRR,
@@ -27,7 +28,6 @@ from .layout import (
     ROWS_POS,
     ROWS_VEL,
     S_A,
-    S_B,
     S_CDT,
     S_SF,
 )
@@ -62,6 +62,8 @@ def apply_transition(w, source, target, dt):
     c21 = w[S_CDT + 7]
     c22 = w[S_CDT + 8]
     m = 1.0 - dt * w[C_BIAS_RATE]  # first-order Markov biases
+    source &= PLACE
+    target &= PLACE
     for j in range(ROW):
         p = source + j
         q = target + j
@@ -101,6 +103,8 @@ def apply_transition(w, source, target, dt):
 
 def transpose(w, source, target):
     """Write the transpose of the 15x15 block at ``source`` to ``target``."""
+    source &= PLACE
+    target &= PLACE
     for i in range(15):
         for j in range(15):
             w[target + ROW * i + j] = w[source + ROW * j + i]
@@ -108,32 +112,49 @@ def transpose(w, source, target):
 
 def mirror(w, source, target):
     """Copy the upper triangle of ``source`` to both triangles of ``target``."""
-    for i in range(15):
-        for j in range(i, 15):
-            value = w[source + ROW * i + j]
-            w[target + ROW * i + j] = value
-            w[target + ROW * j + i] = value
+    source &= PLACE
+    target &= PLACE
+    for i in range(BLOCK):
+        w[target + i] = w[source + i]
+    for i in range(1, 15):
+        for j in range(i):
+            w[target + ROW * i + j] = w[source + ROW * j + i]
 
 
-def propagate_foot(w, foot, dt):
+def propagate_foot(w, foot, dt, coupled=True):
     """Propagate a foot's own block and its side of the cross block, right after `mechanize`.
 
     The cross block is Phi_L P_LR Phi_R': the left foot's turn takes it from the left, the right
-    foot's from the right.
+    foot's from the right.  While it is zero (``coupled`` is False) it stays so.
     """
-    block = PLL if foot == 0 else PRR
-    # eq. (8): Phi (P + Q dt/2) Phi' + Q dt/2, as (Phi (Phi P)')'
+    if foot == 0:
+        propagate_block(w, PLL, dt)
+        if coupled:
+            apply_transition(w, PLR, PLR, dt)
+    else:
+        propagate_block(w, PRR, dt)
+        if coupled:
+            transpose(w, PLR, S_A)
+            apply_transition(w, S_A, S_A, dt)
+            transpose(w, S_A, PLR)
+
+
+def propagate_block(w, block, dt):
+    """Propagate a foot's own block, eq. (8): Phi (P + Q dt/2) Phi' + Q dt/2.
+
+    Phi P Phi' is taken as (Phi (Phi P)')'.
+    """
     add_noise(w, block, dt)
-    apply_transition(w, block, S_A, dt)
-    transpose(w, S_A, S_B)
-    apply_transition(w, S_B, S_A, dt)
+    apply_transition(w, block, block, dt)
+    transpose(w, block, S_A)
+    apply_transition(w, S_A, S_A, dt)
     mirror(w, S_A, block)  # one triangle is computed, so P stays symmetric to the bit
     add_noise(w, block, dt)
-    if foot == 0:
-        apply_transition(w, PLR, S_A, dt)
-        for i in range(BLOCK):
-            w[PLR + i] = w[S_A + i]
-    else:
-        transpose(w, PLR, S_A)
-        apply_transition(w, S_A, S_B, dt)
-        transpose(w, S_B, PLR)
+
+
+def correlated(w):
+    """Return whether the feet are correlated: whether the cross block holds anything."""
+    k = 0
+    while k < BLOCK and w[PLR + k] == 0.0:
+        k += 1
+    return k < BLOCK

@@ -12,23 +12,33 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import (
+    closest,
+    considered_states,
     considered_update,
     covariance,
     detector,
     epoch,
     floor,
     measurement_update,
+    report,
+    stance_correction,
     strapdown,
     turn,
+    zero_velocity,
 )
 
 MODULES = (
+    closest,
     strapdown,
     covariance,
+    considered_states,
     considered_update,
     measurement_update,
+    stance_correction,
+    zero_velocity,
     detector,
     floor,
+    report,
     epoch,
     turn,
 )
@@ -42,6 +52,7 @@ ENTRIES = (
     "correct",
     "correct_considering",
     "turn",
+    "closest",
 )
 
 
@@ -59,6 +70,7 @@ class Engine:
     correct: Callable[..., Any]
     correct_considering: Callable[..., Any]
     turn: Callable[..., Any]
+    closest: Callable[..., Any]
 
 
 def kernel_functions() -> dict[str, types.FunctionType]:

@@ -34,13 +34,14 @@ STATE = PLR + BLOCK  # size of a snapshot
 E_POS, E_VEL, E_ATT, E_BG, E_BA = 0, 3, 6, 9, 12
 ERRORS = 15  # error states of one foot
 CONSIDERED_FOOT = 4  # of them that a zero-velocity update takes as known: heading, gyro bias
-CONSIDERED = 10  # most states that a gain takes as known
+CONSIDERED = 12  # most states that a gain takes as known, four at a time
 KNOW_ALL, KNOW_COMMON, KEEP_PLACE = 0, 1, 2  # what an update leaves alone
 ROWS_POS = ROW * E_POS  # from the start of a covariance block to the rows of each of them
 ROWS_VEL = ROW * E_VEL
 ROWS_ATT = ROW * E_ATT
 ROWS_BG = ROW * E_BG
 ROWS_BA = ROW * E_BA
+PLACE = 0x7FFFFFFF  # mask of an offset in ``w``: so no compiler need think it negative
 DIAGONAL = ROW + 1  # from an element of the diagonal to the next
 
 # --- constants, set when the tracker is aligned --------------------------------------------------
@@ -112,10 +113,12 @@ S_Y = S_S + ROWS_MOST * ROWS_MOST  # innovation
 S_H = S_Y + ROWS_MOST  # measurement matrix, rows of JOINT
 S_K = S_H + ROWS_MOST * JOINT  # gain, a column of JOINT a row of the measurement
 S_PC = S_K + ROWS_MOST * JOINT  # P times each considered state, columns of JOINT
-S_CC = S_PC + CONSIDERED * JOINT  # covariance of the considered states, and its factor
-S_GC = S_CC + CONSIDERED * CONSIDERED  # P H' of the considered states, 3 each
-S_D = S_GC + CONSIDERED * ROWS_MOST  # small matrices on the way
-S_DX = S_D + CONSIDERED * ROWS_MOST  # estimated error state of both feet
+S_CC = S_PC + CONSIDERED * JOINT  # [P_cc, P_c H'] of the considered states, then [U, X]
+ROW_CC = SIDE  # its row
+X_CC = CONSIDERED  # from the start of a row to its part of P_c H', one number a row of H
+S_GC = S_CC + CONSIDERED * ROW_CC  # P_c H' kept, ROWS_MOST each
+S_L = S_GC + CONSIDERED * ROWS_MOST  # factor of the innovation covariance, 3x3
+S_DX = S_L + ROWS_MOST * ROWS_MOST  # estimated error state of both feet
 S_CDT = S_DX + JOINT  # R_nb dt, 3x3
 S_SF = S_CDT + 9  # velocity increment in navigation axes, 3
 S_ROTATION = S_SF + 3  # a 3x3 rotation increment
@@ -131,6 +134,14 @@ Z_LEFT = S_GAMMA + 3
 Z_RIGHT = Z_LEFT + ZUPT_INFO
 GLRT_LEFT = Z_RIGHT + ZUPT_INFO
 GLRT_RIGHT = GLRT_LEFT + 1
+
+# --- the array of `closest`, beside ``w`` --------------------------------------------------------
+M_R = 0  # separation of the feet (3,) m
+M_P = 3  # its covariance (3, 3) m^2
+M_AXES = 12  # principal axes of it, one a row
+M_ALONG, M_VARIANCES, M_AT = 21, 24, 27  # along them: the separation, variances, the solution
+M_DIRECTION, M_PUSH, M_NOISE = 30, 33, 34  # the result: row (3,), innovation m, variance m^2
+M_SIZE = 35
 
 # --- rings (length n[N_RING]) --------------------------------------------------------------------
 RINGS = GLRT_RIGHT + 1  # history first, snapshots after it

@@ -10,26 +10,15 @@ them, truth minus estimate, so they are fed back with the other sign.
 
 import math
 
+from .considered_states import KNOWN, consider_all, consider_common, turn_over
 from .considered_update import (
-    apply_gain,
-    consider_all,
-    consider_common,
-    considered_state,
+    clear_rest,
     considering_gain,
+    knowing_all,
 )
 from .layout import (
     BA,
     BG,
-    C_BIAS_KNOWN_VAR,
-    C_FOOT,
-    C_LEVER,
-    C_STRIDE,
-    C_ZUPT_CONSIDERS,
-    C_ZUPT_RATE_VAR,
-    C_ZUPT_STILL_VAR,
-    C_ZUPT_VAR,
-    CONSIDERED_FOOT,
-    DIAGONAL,
     E_ATT,
     E_BA,
     E_BG,
@@ -39,15 +28,13 @@ from .layout import (
     JOINT,
     KNOW_ALL,
     KNOW_COMMON,
+    PLACE,
     PLL,
     PLR,
     POS,
     PRR,
-    RATE,
-    ROT,
     ROW,
     ROWS_MOST,
-    ROWS_VEL,
     S_DX,
     S_G,
     S_H,
@@ -56,10 +43,6 @@ from .layout import (
     S_Y,
     SIDE,
     VEL,
-    Z_LEFT,
-    Z_NIS,
-    Z_S,
-    ZUPT_INFO,
 )
 from .strapdown import rotate_navigation, rotation_increment
 
@@ -103,94 +86,32 @@ def correct(w, rows):
     return nis
 
 
-def correct_standing(w, rows, foot):
-    """Do what `correct` does, but leave position and heading of the standing ``foot`` alone.
-
-    A Schmidt update: the other foot's states, and position and heading of this one, are considered
-    and not estimated.  A minute of standing says much about tilt and biases, and through what the
-    model leaves out (scale factor, misalignment) nothing true about the way that lies behind.
-    """
-    nis = factor(w, rows)
-    own = SIDE * foot
-    other = SIDE * (1 - foot)
-    for j in range(SIDE):
-        w[S_DX + other + j] = 0.0
-    for j in range(15):
-        if considered(j):
-            w[S_DX + own + j] = 0.0
-    block = PLL if foot == 0 else PRR
-    for i in range(15):
-        estimated = not considered(i)
-        a0 = w[S_G + own + i]
-        a1 = w[S_G + JOINT + own + i]
-        a2 = w[S_G + 2 * JOINT + own + i]
-        for j in range(15):
-            # P of two considered states stays: nothing is learnt about either
-            if estimated or not considered(j):
-                o = S_G + own + j
-                w[block + ROW * i + j] -= a0 * w[o] + a1 * w[o + JOINT] + a2 * w[o + 2 * JOINT]
-            if estimated:
-                o = S_G + other + j
-                cross = PLR + ROW * i + j if foot == 0 else PLR + ROW * j + i
-                w[cross] -= a0 * w[o] + a1 * w[o + JOINT] + a2 * w[o + 2 * JOINT]
-    feed_back(w)
-    return nis
-
-
-def bias_known(w, foot):
-    """Return whether the gyro bias of ``foot`` is known better than a stance could tell it."""
-    block = PLL if foot == 0 else PRR
-    largest = 0.0
-    for i in range(3):
-        largest = max(largest, w[block + DIAGONAL * (E_BG + i)])
-    return largest <= w[C_BIAS_KNOWN_VAR]
-
-
-def correct_stance(w, rows, foot, still):
-    """Update with a gain that takes heading and gyro bias as known; return the NIS.
-
-    ``still`` leaves the position of the standing ``foot`` and all of the other foot alone as well.
-    """
-    nis = considering_gain(w, rows, consider_all(w, rows))
-    for k in range(rows):
-        for side in range(2):
-            for c in range(CONSIDERED_FOOT):
-                w[S_K + JOINT * k + SIDE * side + considered_state(c)] = 0.0
-        if still:
-            for j in range(SIDE):
-                w[S_K + JOINT * k + SIDE * (1 - foot) + j] = 0.0
-            for j in range(E_VEL):
-                w[S_K + JOINT * k + SIDE * foot + j] = 0.0
-    apply_gain(w, rows)
-    feed_back(w)
-    return nis
-
-
 def correct_considering(w, rows, kind):
     """Update with a gain that leaves some states alone; return the NIS.
 
     ``kind`` KNOW_ALL takes headings and gyro biases as known, KNOW_COMMON the biases and what the
     headings have in common, KEEP_PLACE corrects neither position nor heading.
     """
+    clear_rest(w, rows)
     if kind == KNOW_ALL:
-        nis = considering_gain(w, rows, consider_all(w, rows))
+        consider_all(w)
+        turn_over(w, KNOWN)
+        nis = knowing_all(w)
     elif kind == KNOW_COMMON:
-        nis = considering_gain(w, rows, consider_common(w, rows))
+        nis = considering_gain(w, consider_common(w))
     else:
-        nis = considering_gain(w, rows, 0)
-        for k in range(rows):
+        nis = considering_gain(w, 0)
+        for k in range(ROWS_MOST):
             for side in range(2):
                 w[S_K + JOINT * k + SIDE * side + E_ATT + 2] = 0.0
                 for j in range(3):
                     w[S_K + JOINT * k + SIDE * side + E_POS + j] = 0.0
-    apply_gain(w, rows)
+    weigh(w, 0, JOINT)
+    take_products(w, PLL, 0, 0)
+    take_products(w, PRR, SIDE, SIDE)
+    take_products(w, PLR, 0, SIDE)
     feed_back(w)
     return nis
-
-
-def considered(state):
-    """Return whether an error state of a standing foot is its position or heading."""
-    return state < E_VEL or state == E_ATT + 2
 
 
 def factor(w, rows):
@@ -260,116 +181,61 @@ def downdate(w):
 
 
 def feed_back(w):
-    """Take the estimated error S_DX off the nominal states; the rotation is exact."""
-    for foot in range(2):
-        o = foot * FOOT
-        d = S_DX + SIDE * foot
-        for i in range(3):
-            w[o + POS + i] -= w[d + E_POS + i]
-            w[o + VEL + i] -= w[d + E_VEL + i]
-            w[o + BG + i] += w[d + E_BG + i]  # the bias states are truth minus estimate
-            w[o + BA + i] += w[d + E_BA + i]
-        rotation_increment(w, w[d + E_ATT], w[d + E_ATT + 1], w[d + E_ATT + 2])
-        rotate_navigation(w, foot)
+    """Take the estimated error S_DX off the nominal states of both feet."""
+    feed_back_foot(w, 0)
+    feed_back_foot(w, 1)
 
 
-def zupt(w, foot, still=False):
-    """Zero-velocity update of one foot, eq. (12), at the point about which the foot pivots.
-
-    With the pivot at ``l`` from the sensor (navigation axes), the sensor moves with
-    v = -P omega x l while the foot rolls over: h(x) = v + P omega x l is zero.  P keeps the
-    horizontal part of the angular rate: a foot that turns about the vertical turns under its ball,
-    not about ``l``.  The rows are [0, I, [P omega x][l x] - [l x] P [omega x], -[l x] P R_nb, 0];
-    a lever arm of zero is the paper's eq. (12).  ``still`` takes the noise of a standstill, in
-    which nothing moves, for that of a stance.
-    """
+def feed_back_foot(w, foot):
+    """Take the estimated error S_DX off the nominal state of ``foot``; the rotation is exact."""
     o = foot * FOOT
-    r = o + ROT
-    lever = C_FOOT + foot * C_STRIDE + C_LEVER
-    # angular rate and lever arm in navigation axes
-    bx = w[o + RATE]
-    by = w[o + RATE + 1]
-    bz = w[o + RATE + 2]
-    wx = w[r] * bx + w[r + 1] * by + w[r + 2] * bz
-    wy = w[r + 3] * bx + w[r + 4] * by + w[r + 5] * bz
-    wz = w[r + 6] * bx + w[r + 7] * by + w[r + 8] * bz
-    lx = w[r] * w[lever] + w[r + 1] * w[lever + 1] + w[r + 2] * w[lever + 2]
-    ly = w[r + 3] * w[lever] + w[r + 4] * w[lever + 1] + w[r + 5] * w[lever + 2]
-    lz = w[r + 6] * w[lever] + w[r + 7] * w[lever + 1] + w[r + 8] * w[lever + 2]
-    # H: velocity I, gyro bias -[l x] P R_nb
-    for k in range(ROWS_MOST * JOINT):
-        w[S_H + k] = 0.0
-    h = S_H + SIDE * foot
+    d = S_DX + SIDE * foot
     for i in range(3):
-        w[h + (JOINT + 1) * i + E_VEL] = 1.0
-        w[h + E_BG + i] = lz * w[r + 3 + i]
-        w[h + JOINT + E_BG + i] = -lz * w[r + i]
-        w[h + 2 * JOINT + E_BG + i] = ly * w[r + i] - lx * w[r + 3 + i]
-    # H: attitude [P omega x][l x] - [l x] P [omega x]
-    w[h + E_ATT] = lz * wz - wy * ly
-    w[h + E_ATT + 1] = wy * lx
-    w[h + E_ATT + 2] = -lz * wx
-    w[h + JOINT + E_ATT] = wx * ly
-    w[h + JOINT + E_ATT + 1] = lz * wz - wx * lx
-    w[h + JOINT + E_ATT + 2] = -lz * wy
-    w[h + 2 * JOINT + E_ATT] = wx * lz - lx * wz
-    w[h + 2 * JOINT + E_ATT + 1] = wy * lz - ly * wz
-    # innovation v + P omega x l, estimate minus zero; the velocity is added below
-    w[S_Y] = wy * lz
-    w[S_Y + 1] = -wx * lz
-    w[S_Y + 2] = wx * ly - wy * lx
-    collect_zupt(w, foot)
-    noise = w[C_ZUPT_STILL_VAR] if still else w[C_ZUPT_VAR]
-    noise += w[C_ZUPT_RATE_VAR] * (wx * wx + wy * wy + wz * wz)
-    info = Z_LEFT + foot * ZUPT_INFO
-    for i in range(3):
-        w[S_S + (ROWS_MOST + 1) * i] += noise
-        w[S_Y + i] += w[o + VEL + i]
-        w[info + i] = w[S_Y + i]
-    for i in range(ROWS_MOST * ROWS_MOST):
-        w[info + Z_S + i] = w[S_S + i]
-    if w[C_ZUPT_CONSIDERS] == 1.0 and bias_known(w, foot):
-        w[info + Z_NIS] = correct_stance(w, 3, foot, still)
-    elif still:
-        w[info + Z_NIS] = correct_standing(w, 3, foot)
-    else:
-        w[info + Z_NIS] = correct(w, 3)
+        w[o + POS + i] -= w[d + E_POS + i]
+        w[o + VEL + i] -= w[d + E_VEL + i]
+        w[o + BG + i] += w[d + E_BG + i]  # the bias states are truth minus estimate
+        w[o + BA + i] += w[d + E_BA + i]
+    rotation_increment(w, w[d + E_ATT], w[d + E_ATT + 1], w[d + E_ATT + 2])
+    rotate_navigation(w, foot)
 
 
-def collect_zupt(w, foot):
-    """Do what `collect` does for the sparse rows of a zero-velocity update.
+def weigh(w, side, count):
+    """Write M = G - K S / 2 in the place of G, and K y to S_DX; ``count`` states at ``side``."""
+    side &= PLACE
+    for k in range(ROWS_MOST):
+        s0 = w[S_S + k]
+        s1 = w[S_S + ROWS_MOST + k]
+        s2 = w[S_S + 2 * ROWS_MOST + k]
+        for j in range(count):
+            x = S_K + side + j
+            total = w[x] * s0 + w[x + JOINT] * s1 + w[x + 2 * JOINT] * s2
+            w[S_G + JOINT * k + side + j] -= 0.5 * total
+    y0 = w[S_Y]
+    y1 = w[S_Y + 1]
+    y2 = w[S_Y + 2]
+    for j in range(count):
+        x = S_K + side + j
+        w[S_DX + side + j] = w[x] * y0 + w[x + JOINT] * y1 + w[x + 2 * JOINT] * y2
 
-    Row k of H has a one at velocity k and, besides, only attitude and gyro bias of the own foot.
-    """
-    own = PLL if foot == 0 else PRR
-    for k in range(3):
-        g = S_G + JOINT * k + SIDE * foot
-        x = S_G + JOINT * k + SIDE * (1 - foot)
-        h = S_H + JOINT * k + SIDE * foot
+
+def take_products(w, block, a, b):
+    """Subtract M K' + K M' from a block, with the rows of the foot at ``a``, columns at ``b``."""
+    block &= PLACE
+    a &= PLACE
+    b &= PLACE
+    for i in range(15):
+        m0 = w[S_G + a + i]
+        m1 = w[S_G + JOINT + a + i]
+        m2 = w[S_G + 2 * JOINT + a + i]
+        k0 = w[S_K + a + i]
+        k1 = w[S_K + JOINT + a + i]
+        k2 = w[S_K + 2 * JOINT + a + i]
         for j in range(ROW):
-            total = w[own + ROWS_VEL + ROW * k + j]
-            for i in range(E_ATT, E_BA):
-                total += w[h + i] * w[own + ROW * i + j]
-            w[g + j] = total
-        if foot == 0:
-            for j in range(ROW):
-                total = w[PLR + ROWS_VEL + ROW * k + j]
-                for i in range(E_ATT, E_BA):
-                    total += w[h + i] * w[PLR + ROW * i + j]
-                w[x + j] = total
-        else:
-            for j in range(15):
-                total = w[PLR + ROW * j + E_VEL + k]
-                for i in range(E_ATT, E_BA):
-                    total += w[h + i] * w[PLR + ROW * j + i]
-                w[x + j] = total
-            w[x + 15] = 0.0  # the pad, which a row of the block brings along on the other side
-    for k in range(3):
-        for m in range(k, 3):
-            g = S_G + JOINT * m + SIDE * foot
-            h = S_H + JOINT * k + SIDE * foot
-            total = w[g + E_VEL + k]
-            for i in range(E_ATT, E_BA):
-                total += w[h + i] * w[g + i]
-            w[S_S + ROWS_MOST * k + m] = total
-            w[S_S + ROWS_MOST * m + k] = total
+            m = S_G + b + j
+            k = S_K + b + j
+            # the two products of a pair stay the same when i and j change places
+            w[block + ROW * i + j] -= (
+                (m0 * w[k] + k0 * w[m])
+                + (m1 * w[k + JOINT] + k1 * w[m + JOINT])
+                + (m2 * w[k + 2 * JOINT] + k2 * w[m + 2 * JOINT])
+            )

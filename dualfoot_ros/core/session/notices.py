@@ -16,6 +16,7 @@ from .absence import Presence
 from .walk_state import WalkState
 
 Found = list[Event]
+PRESENCE = 3 * (lay.NOTICE_GONE | lay.NOTICE_BACK)  # bits of both feet
 
 
 class Notices:
@@ -32,7 +33,7 @@ class Notices:
         notices = int(walk.space.n[lay.N_NOTICE])
         bits = [notices & 15, notices >> lay.NOTICE_SHIFT]
         walk.roll_back.clean_phases(bits)
-        found = self._presence(notices)
+        found = self._presence(notices) if notices & PRESENCE else []
         if notices & lay.NOTICE_FLOOR:
             found += self._floor()
         for foot in range(2):
@@ -71,7 +72,7 @@ class Notices:
             walk.carriage.interrupted()
             walk.forget()
             walk.watch()
-            walk.facing = walk.headings.facing()
+            walk.heading_changed()
         return found
 
     def _phase(self, foot: int, last: int) -> StancePhase:
@@ -101,7 +102,7 @@ class Notices:
         """Turn a foot, or both, when this stance tells where the walk heads."""
         walk = self._walk
         turned = walk.headings.stance(walk.engine, foot, now, walk.phase == "walking")
-        walk.facing = walk.headings.facing()
+        walk.heading_changed()
         if turned and walk.headings.known:
             turned += walk.join_pair(now)
             walk.watch()
@@ -147,7 +148,7 @@ class Notices:
             walk.roll_back.apply([Request(moment, True, beside)])
         found.append(walk.absences.joined(foot, now))
         walk.watch()
-        walk.facing = walk.headings.facing()
+        walk.heading_changed()
         return found
 
     def _learn_bias(self, foot: int, now: int) -> Found:

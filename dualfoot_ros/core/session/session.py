@@ -54,7 +54,7 @@ class Session:
         for foot, still in enumerate(start.feet):
             if still.absent:
                 walk.absences.never_there(foot, still.end_ns)
-        walk.facing = walk.headings.facing()
+        walk.heading_changed()
 
     @property
     def phase(self) -> str:
@@ -88,7 +88,7 @@ class Session:
         if self._pose_covariance is not None:
             apply_covariance(self.space, self._pose_covariance, replace=False)
         walk.headings.levelled()
-        walk.facing = walk.headings.facing()
+        walk.heading_changed()
         walk.watch()
 
     def aligned_event(self, stamp: int) -> Event:
@@ -143,11 +143,9 @@ class Session:
         space = self.space
         k, stop = span
         while k < stop:
-            first, engine = space.epoch + 1, self._walk.engine
+            engine = self._walk.engine
             done = engine.advance(space.w, space.n, dts, values, k, stop, out)
-            tail = max(k, done - space.ring)
-            epochs = np.arange(first + tail - k, first + done - k)
-            space.stamps[epochs % space.ring] = stamps[tail:done]
+            space.keep_stamps(stamps[k:done])
             k = done
             if space.n[lay.N_NOTICE]:
                 found = self._notices.attend()
@@ -173,7 +171,7 @@ class Session:
             found = walk.headings.set_pose(walk.engine, pose.position, pose.yaw, stamp)
             if pose.covariance is not None:
                 apply_covariance(self.space, pose.covariance, replace=True)
-            walk.facing = walk.headings.facing()
+            walk.heading_changed()
             up_m, turned = found[0].turn.shift[2], found[0].turn.yaw
         for method in (*walk.aids, walk.method):
             method.moved(up_m, turned)

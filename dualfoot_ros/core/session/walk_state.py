@@ -15,6 +15,7 @@ from ..joint_estimate import JointEstimate, Outcome
 from ..kernel import Engine, Workspace
 from ..kernel import layout as lay
 from ..results.events import Event
+from ..results.facing import Facing
 from ..roll_back import RollBack
 from ..samples.increments import Increments
 from ..samples.series import FloatArray
@@ -49,7 +50,18 @@ class WalkState:
         self.carriage = Carriage(config.floor, space, self.gait, self.roll_back)
         self.absences = Absences(config, space, self.headings, self.gait)
         self.phase = "standing"
-        self.facing = self.headings.facing()
+        self._facing: Facing | None = None
+
+    @property
+    def facing(self) -> Facing:
+        """Where the feet head in their axes, as far as that is known."""
+        if self._facing is None:
+            self._facing = self.headings.facing()
+        return self._facing
+
+    def heading_changed(self) -> None:
+        """Take note that `facing` is another one from now on."""
+        self._facing = None
 
     def use(self, engine: Engine) -> None:
         """Go on with another form of the kernel."""

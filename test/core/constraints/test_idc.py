@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
-from dualfoot_ros.core.constraints.distance_solvers import exact, iterate
+from dualfoot_ros.core.constraints.distance_solvers import iterate
 from dualfoot_ros.core.constraints.idc import Idc, IdcConfig
 from dualfoot_ros.core.joint_estimate import JointEstimate, relative_row
 from dualfoot_ros.core.kernel import interpreted
@@ -80,8 +80,9 @@ def test_no_point_at_c0_costs_less_than_the_exact_solution(seed, share):
         step = np.array(unit) * c0 - r
         return float(step @ W @ step)
 
-    p = JointEstimate(space, interpreted()).relative_covariance()
-    direction, push, _ = exact(r.tolist(), p, c0, 0.0)
+    estimate = JointEstimate(space, interpreted())
+    p = estimate.relative_covariance()
+    direction, push, _ = estimate.closest(r.tolist(), p, c0, 0.0)
     s = float(np.array(direction) @ np.array(p) @ direction)
     found = r - np.array(p) @ direction * push / s
     ours = float((found - r) @ W @ (found - r))
@@ -180,7 +181,8 @@ def test_the_papers_iteration_need_not_converge():
         s = float(np.array(a) @ p @ a)
         distances.append(float(np.linalg.norm(r - np.array(p) @ a * push / s)))
     assert min(abs(d - c0) for d in distances) > 0.01
-    u, push, _ = exact(r, p, c0, 0.0)
+    estimate = JointEstimate(random_workspace(0), interpreted())
+    u, push, _ = estimate.closest(r, p, c0, 0.0)
     s = float(np.array(u) @ p @ u)
     assert abs(np.linalg.norm(r - np.array(p) @ u * push / s) - c0) < 1e-12
 

@@ -11,8 +11,8 @@ from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.joint_estimate import HeadingCorrection, JointEstimate
 from dualfoot_ros.core.kernel import interpreted
 from dualfoot_ros.core.kernel import layout as lay
-from dualfoot_ros.core.kernel.measurement_update import zupt
 from dualfoot_ros.core.kernel.strapdown import mechanize
+from dualfoot_ros.core.kernel.zero_velocity import zupt
 
 from ..dense import AS_THE_PAPER, considering, joseph
 from .states import SAMPLE, error_between, nominal, put_error, random_workspace, set_covariance

@@ -1,6 +1,6 @@
 """What faults cost: lost samples, holes, one foot alone, clocks that are set, floors that move.
 
-    python benchmark/faults.py [--seeds 8] [--only rides]
+    python -m benchmark.faults [--seeds 8] [--only rides]
 
 Each fault is put into simulated walks at 100 Hz, or into streams that go through the streaming
 aligner in the order of their arrival.
@@ -10,31 +10,17 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from dualfoot_ros.core import (
-    DualFootError,
-    EventKind,
-    FloatArray,
-    ImuSeries,
-    TrackerConfig,
-    Trajectory,
-)
+from benchmark.rides import ride_rows
+from dualfoot_ros.core import DualFootError, FloatArray, ImuSeries, Trajectory
 from dualfoot_ros.core.results.events import FEET
 from dualfoot_ros.evaluation import RunOptions, run, track
 from dualfoot_ros.recording import Recording
-from dualfoot_ros.simulation import (
-    MovingFloorConfig,
-    Simulation,
-    WalkConfig,
-    on_moving_floor,
-    simulate,
-)
-from dualfoot_ros.simulation import walk as make_walk
+from dualfoot_ros.simulation import Simulation, simulate
 from dualfoot_ros.timing import Aligner, align_with_report
 
 STEP_NS = 10_000_000
@@ -127,82 +113,6 @@ def track_rows(walks: list[Simulation]) -> Iterator[tuple[str, str]]:
         "right foot ends at 15 s",
         f"{share:.1%} of the left foot's samples are used " + (f"({missing:.0%} of them alone)"),
     )
-
-
-RIDES: dict[str, tuple[dict[str, object], float]] = {  # settings, duration of the stop, s
-    "lift, 12 m at 1 m/s": ({"kind": "lift", "way": 12.0}, 25.0),
-    "lift, 40 m at 3 m/s": ({"kind": "lift", "way": 40.0, "speed": 3.0}, 35.0),
-    "lift, 6 m down": ({"kind": "lift", "way": -6.0}, 20.0),
-    "escalator, standing on it": ({"kind": "escalator", "speed": 0.5}, 18.0),
-    "escalator, walking on it": ({"kind": "escalator", "speed": 0.5, "walking": True}, 0.0),
-    "walkway, standing on it": ({"kind": "walkway", "speed": 0.65}, 30.0),
-    "walkway, walking on it": ({"kind": "walkway", "speed": 0.65, "walking": True}, 0.0),
-    "car, 200 m": (
-        {"kind": "vehicle", "way": 200.0, "speed": 12.0, "acceleration": 1.5},
-        60.0,
-    ),
-}
-
-
-@dataclass(frozen=True)
-class Ride:
-    """What came of a ride: events, and of the person error and sigma (2,) m, level and up."""
-
-    said: int
-    error: FloatArray
-    sigma: FloatArray
-
-
-def ridden(settings: dict[str, object], stop_s: float, seed: int, *, watch: bool) -> Ride:
-    """Track a rectangle with a ride."""
-    way = WalkConfig(stops=1, stop_duration=stop_s) if stop_s else WalkConfig()
-    moved = on_moving_floor(make_walk(way, seed), MovingFloorConfig.from_mapping(settings))
-    made = simulate(moved, seed=seed)
-    config = TrackerConfig.from_mapping({"floor.watch": watch})
-    found = track(Recording(made.left, made.right), config)
-    errors = []
-    for foot, truth in ((found.left, made.left_truth), (found.right, made.right_truth)):
-        first, last = np.searchsorted(truth.stamp_ns, foot.stamp_ns[[0, -1]])
-        last = min(int(last), len(truth.stamp_ns) - 1)
-        true = truth.position[last] - truth.position[first]
-        errors.append(foot.position[-1] - foot.position[0] - true)
-    error = np.mean(errors, axis=0)
-    covariance = 0.25 * (
-        2.0 * (found.left.position_covariance[-1] + found.right.position_covariance[-1])
-        - found.relative_covariance[-1]
-    )
-    level = float(np.sqrt(np.linalg.eigvalsh(covariance[:2, :2]).max()))
-    said = sum(event.kind is EventKind.CARRIED for event in found.events)
-    return Ride(
-        said,
-        np.array([np.hypot(error[0], error[1]), abs(error[2])]),
-        np.array([level, np.sqrt(covariance[2, 2])]),
-    )
-
-
-def ride_rows(seeds: int) -> Iterator[tuple[str, str]]:
-    """Yield what rides cost a track, without looking for them and with it."""
-    for name, (settings, stop_s) in RIDES.items():
-        before, now = (
-            [ridden(settings, stop_s, seed, watch=watch) for seed in range(seeds)]
-            for watch in (False, True)
-        )
-        median, worst, unseen = (
-            f"{level:.2f} m level, {up:.2f} m up"
-            for level, up in (
-                np.median([r.error for r in now], axis=0),
-                np.max([r.error for r in now], axis=0),
-                np.median([r.error for r in before], axis=0),
-            )
-        )
-        sigma = np.median([r.sigma for r in now], axis=0)
-        held = np.mean([(r.error <= 2.0 * r.sigma).all() for r in now])
-        yield (
-            name,
-            f"said in {sum(r.said == 2 for r in now)} of {seeds}; error {median} (median), "
-            f"{worst} (worst); sigma {sigma[0]:.2f} and {sigma[1]:.2f} m; within 2 sigma in "
-            f"{held:.0%}; not looked for: {unseen}",
-        )
 
 
 def longest_without(jumps_s: dict[str, float], feet: tuple[str, ...]) -> float:

@@ -90,6 +90,16 @@ def skew(vector: FloatArray) -> FloatArray:
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
+def exact_rotation(turn: FloatArray) -> FloatArray:
+    """Return the rotation (3, 3) by the rotation vector ``turn`` (3,) rad, however long it is."""
+    angle = math.hypot(*turn.tolist())
+    if angle == 0.0:
+        return np.eye(3)
+    cross, half = skew(turn / angle), math.sin(0.5 * angle)
+    rotation: FloatArray = np.eye(3) + math.sin(angle) * cross + 2.0 * half * half * cross @ cross
+    return rotation
+
+
 def turn_between(before: FloatArray, after: FloatArray) -> float:
     """Return the turn about the vertical between two R_nb (3, 3), rad, however the sensor sits."""
     m = after @ before.T

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core import FloatArray, ImuSeries, IntArray
-from ..timing import AlignerConfig, clean
+from ..timing import AlignerConfig, clean, finite_rows
 from .gyro_agreement import GyroAgreement, gyro_agreement
 from .standstill import Stand, first_stand
 from .stuck_values import Stuck, find_stuck
@@ -76,8 +76,8 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
     """Return the facts of ``series``."""
     config = config or AlignerConfig()
     good, counters, restart_at = clean(series, config)
-    finite = np.isfinite(series.specific_force) & np.isfinite(series.angular_rate)
-    bad = np.flatnonzero(~finite.all(axis=1))
+    measured = np.hstack([series.specific_force, series.angular_rate])
+    bad = np.flatnonzero(~finite_rows(measured))
     steps = np.diff(good.stamp_ns)
     regular = steps[steps <= config.max_gap_ns]
     off = _off_beat(regular) if len(regular) else np.zeros(1)

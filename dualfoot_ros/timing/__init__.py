@@ -12,7 +12,7 @@ from .offset.result import Offset
 from .offset.synchronise import Synchronised, synchronise
 from .pairing.batch import AlignReport, align, align_with_report
 from .pairing.pairing_config import AlignerConfig
-from .pairing.stream_gate import Clean, clean
+from .pairing.stream_gate import Clean, clean, finite_rows
 from .pairing.streaming import Aligner
 
 Counter = CounterConfig  # names of version 0.1
@@ -41,6 +41,7 @@ __all__ = [
     "align_with_report",
     "clean",
     "even_stamps",
+    "finite_rows",
     "offset_by_motion",
     "synchronise",
 ]

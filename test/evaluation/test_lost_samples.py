@@ -30,10 +30,5 @@ def cost():
     return lossy / whole
 
 
-def test_five_percent_of_lost_samples_make_the_error_less_than_twice_as_large(cost):
-    assert cost < 2.0
-
-
-@pytest.mark.xfail(strict=True, reason="1.72 on feet that cone; 1.37 with gait.coning=0")
 def test_five_percent_of_lost_samples_make_the_error_at_most_half_as_large_again(cost):
     assert cost <= 1.5

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..config import TrackerConfig
 from ..results.events import FEET
-from ..rotation import skew
+from ..rotation import exact_rotation
 from ..samples.series import FloatArray
 from .foot_stand import FootStandstill
 from .window import Window, WindowSlider
@@ -41,7 +41,7 @@ class FirstStances:
         self._last_ns = stamp_ns
         for foot, slider in enumerate(self._sliders):
             sample = values[6 * foot : 6 * foot + 6]
-            self._turned[foot] = self._turned[foot] @ small_rotation(sample[3:] * dt)
+            self._turned[foot] = self._turned[foot] @ exact_rotation(sample[3:] * dt)
             window = slider.add(stamp_ns, sample.copy())
             if window is not None and self._calm(window):
                 self._stances[foot] = standstill_of(window)
@@ -71,10 +71,3 @@ def standstill_of(window: Window) -> FootStandstill:
     """Return what a window of a foot that only just stands tells: the level."""
     force, end_ns = window.mean[:3], window.end_ns
     return FootStandstill(force, np.zeros(3), BIAS_STD, TILT_STD, window.seconds, end_ns)
-
-
-def small_rotation(turn: FloatArray) -> FloatArray:
-    """Return the rotation (3, 3) by the rotation vector ``turn`` (3,) rad, to second order."""
-    cross = skew(turn)
-    rotation: FloatArray = np.eye(3) + cross + 0.5 * cross @ cross
-    return rotation

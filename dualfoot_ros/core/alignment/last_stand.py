@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ..config import TrackerConfig
-from ..config_groups import AlignmentConfig
+from ..groups import AlignmentConfig
 from ..results.trajectory import stance_bounds
 from ..samples.series import ImuSeries, IntArray
 from .foot_stand import FootStand, FootStandstill

@@ -14,7 +14,7 @@ from ..groups import FloorConfig
 from ..joint_estimate import Outcome
 from ..kernel import Workspace
 from ..results.events import Event, EventKind
-from ..results.payloads import FloorKind, Ride
+from ..results.payloads import FloorKind, Reason, Ride
 from ..roll_back import RollBack
 from ..samples.series import FloatArray
 from .boarding import Boarding, Step
@@ -25,7 +25,6 @@ from .standing_ride import StandingRide
 WALKWAY_STD = 0.08  # m/s, of a floor whose velocity both feet have told
 INCLINE = 0.3  # half the climb of an escalator, which may be none, over its horizontal velocity
 REST = 0.5  # share of the velocity of a floor below which stepping off leads to one at rest
-MISFIT = 20.0  # NIS a row of a constraint that does not fit the track (usual: 1)
 USUAL_S = 90.0  # after which the end of a walkway may have been missed
 
 
@@ -83,7 +82,7 @@ class Carriage:
 
     def constrained(self, outcome: Outcome) -> None:
         """Take note of a constraint; one that does not fit moves the feet as a floor would."""
-        if outcome.accepted and outcome.nis > MISFIT * len(outcome.innovation):
+        if outcome.reason is Reason.DID_NOT_FIT:
             self._boarding.mistrust()
 
     def interrupted(self) -> None:

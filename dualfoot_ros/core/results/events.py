@@ -27,6 +27,7 @@ class EventKind(StrEnum):
     HEADING = "heading"
     RESET = "reset"
     MISSING = "missing"
+    LOST = "lost"
     JOINED = "joined"
     BRIDGED = "bridged"
     CARRIED = "carried"
@@ -48,7 +49,7 @@ class Event:
     nis : normalised innovation squared, innovation' S^-1 innovation
     accepted : False when a gate or a rule refused to apply it
     payload : further values, of a type that tells what they are
-    reason : why it was refused, or why the tracker started anew
+    reason : why it was refused or taken with a doubt, or why the tracker started anew
     """
 
     kind: EventKind

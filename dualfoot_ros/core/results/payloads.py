@@ -14,7 +14,7 @@ Triple = tuple[float, float, float]
 
 
 class Reason(StrEnum):
-    """Why something was refused, or why the tracker started anew."""
+    """Why something was refused or taken with a doubt, or why the tracker started anew."""
 
     DISTANCE_WITHIN_C0 = "distance within c0"
     DISTANCE_WITHIN_BOUND = "distance within the bound"
@@ -26,6 +26,7 @@ class Reason(StrEnum):
     ASKED_FOR = "asked for"
     TIME_JUMPED = "time jumped back"
     NOT_FINITE = "the estimate was not finite"
+    DID_NOT_FIT = "the feet could not be where they seemed to be"
 
 
 class Payload(Protocol):

@@ -33,6 +33,7 @@ KEPT_YAW = 0.1  # rad, by which a foot may have turned without being levelled an
 STANCE_SPEED = 0.1  # m/s
 BESIDE_STD, BESIDE_UP_STD = 0.2, 0.15  # m, place of a foot against the one that passes it
 SPACING_M = 0.15
+LARGEST_BIAS = 0.5  # m/s^2, of an accelerometer
 
 
 class Presence(StrEnum):
@@ -59,7 +60,7 @@ class Absences:
         self, config: TrackerConfig, space: Workspace, headings: Headings, gait: GaitHistory
     ) -> None:
         """Start with both feet joined."""
-        self._gravity, self._space = config.gravity, space
+        self._bias_std, self._space = config.initial.accelerometer_bias, space
         self._headings, self._gait = headings, gait
         self.of = [Presence.JOINED, Presence.JOINED]
         self._since_ns = [0, 0]
@@ -105,6 +106,33 @@ class Absences:
             rows[lay.E_ATT + axis, lay.E_ATT + axis] += std**2
         if yaw < KEPT_YAW:  # it has hardly turned: its attitude holds
             self.of[foot] = Presence.LEVELLED
+
+    def lost(self, foot: int, since_ns: int, stamp: int, speed: float) -> None:
+        """Take note at ``stamp`` that the samples of ``foot`` were wrong since ``since_ns``.
+
+        ``speed`` m/s is that with which it seemed to land.
+        """
+        self._somewhere(foot, speed * max(0.0, (stamp - since_ns) * 1e-9))
+        self.gone(foot, since_ns, standing=False)
+        self.back(foot, stamp)
+        self.of[foot] = Presence.BACK
+        self._forget_bias(foot)
+
+    def _forget_bias(self, foot: int) -> None:
+        """Take back what the present stance has taught the accelerometer bias of ``foot``."""
+        start = foot * lay.FOOT + lay.BA
+        bias = self._space.snapshot(self._space.foot(foot, "N_START"))[start : start + 3].copy()
+        size = math.hypot(*bias.tolist())
+        if size > LARGEST_BIAS:  # those before were wrong too
+            bias, size = np.zeros(3), 0.0
+        self._space.w[start : start + 3] = bias
+        self._unknown(foot, lay.E_BA, max(self._bias_std, size))
+
+    def _somewhere(self, foot: int, std: float) -> None:
+        """Make the place of ``foot`` unknown by ``std`` m besides."""
+        rows = self._space.own_block(foot)
+        for i in range(lay.E_POS, lay.E_POS + 3):
+            rows[i, i] += std * std
 
     def _unknown(self, foot: int, state: int, std: float) -> None:
         """Make three error states of ``foot`` unknown to ``std``, independent of all others."""

@@ -13,6 +13,7 @@ from ..joint_estimate import Outcome
 from ..kernel import layout as lay
 from ..results.events import FEET, Event, EventKind
 from .absence import Presence
+from .lost_track import doubting, lost_speed
 from .walk_state import WalkState
 
 Found = list[Event]
@@ -87,6 +88,7 @@ class Notices:
         stamp = walk.gait.stamp(walk.space.foot(foot, "N_START"))
         now = walk.gait.stamp(walk.space.epoch)
         found = [Event(EventKind.STANCE_START, stamp, FEET[foot], now)]
+        found += self._lost(foot, stamp, now)
         if walk.watches_floor:
             found += walk.carriage.landed(foot, heading_known=walk.headings.known)
         if walk.absences.of[foot] is Presence.BACK:
@@ -97,6 +99,22 @@ class Notices:
         for method in self._askable(foot):
             found += walk.constrain(FEET[foot], method, method.on_stance_start(phase, walk.gait))
         return found
+
+    def _lost(self, foot: int, landed: int, now: int) -> Found:
+        """Level and join a foot anew that has landed as none does: its samples were wrong."""
+        walk = self._walk
+        joined = walk.absences.of[foot] is Presence.JOINED
+        if not (joined and walk.headings.known and walk.carriage.kind is None):
+            return []
+        speed = lost_speed(walk.space, foot)
+        if speed is None:
+            return []
+        ended = walk.gait.ended[foot]
+        since = walk.gait.stamp(ended, landed)
+        walk.absences.lost(foot, since, landed, speed)
+        walk.carriage.interrupted()
+        walk.watch()
+        return [Event(EventKind.LOST, since, FEET[foot], now)]
 
     def _turn(self, foot: int, now: int) -> Found:
         """Turn a foot, or both, when this stance tells where the walk heads."""
@@ -145,7 +163,8 @@ class Notices:
                 return []
             spacing = walk.spacing[0] if walk.spacing else 0.0
             beside = partial(walk.absences.put_beside, foot=foot, spacing_m=spacing)
-            walk.roll_back.apply([Request(moment, True, beside)])
+            join = doubting(walk.space, Request(moment, True, beside), [foot])
+            walk.roll_back.apply([join])
         found.append(walk.absences.joined(foot, now))
         walk.watch()
         walk.heading_changed()

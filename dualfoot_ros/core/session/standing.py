@@ -39,8 +39,14 @@ class Stands:
         """
         window = self._read(foot, stamp_ns)
         before, self._newest[foot] = self._newest[foot], window
-        if before is not None and before.rate_std <= self._config.alignment.max_rate_std:
+        if before is not None and self._is_still(before):
             self._stands[foot].add(before)
+
+    def _is_still(self, window: Window) -> bool:
+        """Return whether a window can be of a standing foot, and not of a sensor that is stuck."""
+        limits = self._config.alignment
+        mean = math.hypot(*window.mean[3:].tolist())
+        return 0.0 < window.rate_std <= limits.max_rate_std and mean <= limits.max_rate
 
     def _read(self, foot: int, stamp_ns: int) -> Window:
         w, a = self._space.w, lay.A_FOOT + foot * lay.A_STRIDE

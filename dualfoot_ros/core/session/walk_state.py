@@ -16,12 +16,14 @@ from ..kernel import Engine, Workspace
 from ..kernel import layout as lay
 from ..results.events import Event
 from ..results.facing import Facing
+from ..results.payloads import Reason
 from ..roll_back import RollBack
 from ..samples.increments import Increments
 from ..samples.series import FloatArray
 from .absence import Absences
 from .heading import Headings, turn
 from .initial_state import InitialState
+from .lost_track import doubting
 from .standing import Stands
 
 
@@ -120,9 +122,10 @@ class WalkState:
         """Apply what a method asked for, and tell it and the caller what came of it."""
         if not requests:
             return []
-        done = self.roll_back.apply(requests)
+        done = self.roll_back.apply([doubting(self.space, request) for request in requests])
         for _, outcome in done:
-            method.note(outcome)
+            if outcome.reason is not Reason.DID_NOT_FIT:
+                method.note(outcome)
             self.carriage.constrained(outcome)
         return [self._event(foot, *pair) for pair in done]
 

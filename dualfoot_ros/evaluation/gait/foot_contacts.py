@@ -139,7 +139,10 @@ def _crossing(
 ) -> float:
     """Return when a line through the sample ``below`` and its neighbour crosses ``level``, s."""
     above = below + towards
-    share = (level - value[below]) / (value[above] - value[below])
+    rise = value[above] - value[below]
+    if rise == 0.0:
+        return float(time[above])
+    share = (level - value[below]) / rise
     return float(time[below] + share * (time[above] - time[below]))
 
 

@@ -29,6 +29,7 @@ LOGGED = (
     EventKind.HEADING,
     EventKind.RESET,
     EventKind.MISSING,
+    EventKind.LOST,
     EventKind.JOINED,
 )
 RATE_OVER = 500  # samples over which the rate that comes is seen

@@ -13,8 +13,8 @@ import numpy as np
 from ...core import FEET, BoolArray, ImuSeries, IntArray, TimingError
 from .grid import anchor
 from .grid_lookup import GridLookup
+from .lost_samples import Restored
 from .pairing_config import AlignerConfig
-from .sample_spacing import filled
 from .stream_gate import Clean, clean
 
 
@@ -60,10 +60,11 @@ def align_with_report(
     config = config or AlignerConfig()
     found = {"left": clean(left, config), "right": clean(right, config)}
     feet = {foot: _increasing(foot, found[foot]) for foot in FEET}
-    grid = _grid(feet, config)
-    lookups = [GridLookup.of(feet[foot].stamp_ns, grid, config) for foot in FEET]
+    whole = {foot: Restored.of(feet[foot], config) for foot in FEET}
+    grid = _grid(whole, config)
+    lookups = [GridLookup.of(w.series.stamp_ns, grid, config, w.lost) for w in whole.values()]
     kept = (lookups[0].found | lookups[1].found) & ~_outside(feet, grid, lookups, config)
-    taken = [p.take(feet[f], grid, kept) for f, p in zip(FEET, lookups, strict=True)]
+    taken = [p.take(whole[f].series, grid, kept) for f, p in zip(FEET, lookups, strict=True)]
     counters = {f"{f}_{k}": n for f in FEET for k, n in found[f].counters.items()}
     counters |= dict.fromkeys((f"{foot}_clock_set" for foot in FEET), 0)
     counters |= _outcomes(lookups, kept)
@@ -79,14 +80,14 @@ def _increasing(foot: str, found: Clean) -> ImuSeries:
     )
 
 
-def _grid(feet: Mapping[str, ImuSeries], config: AlignerConfig) -> IntArray:
+def _grid(feet: Mapping[str, Restored], config: AlignerConfig) -> IntArray:
     """Return the stamps at which pairs are wanted, before those that no foot has are left out."""
-    stamps = {foot: series.stamp_ns for foot, series in feet.items()}
+    stamps = {foot: whole.stamp_ns for foot, whole in feet.items()}
     if config.rate == 0:
         own = stamps.pop(config.reference)
         other = next(iter(stamps.values()))
         alone = other[~GridLookup.of(own, other, config).found]
-        return np.sort(np.concatenate([own, filled(own, config.max_gap_ns), alone]))
+        return np.sort(np.concatenate([own, alone]))
     on = [each for each in stamps.values() if len(each)]
     if not on:
         return np.empty(0, dtype=np.int64)
@@ -128,7 +129,7 @@ def _outside(
 
 def _outcomes(lookups: list[GridLookup], kept: BoolArray) -> dict[str, int]:
     found = lookups[0].found | lookups[1].found
-    interpolated = (lookups[0].between | lookups[1].between) & kept
+    interpolated = (lookups[0].interpolated | lookups[1].interpolated) & kept
     missing = {
         f"{foot}_missing": int((kept & ~lookup.found).sum())
         for foot, lookup in zip(FEET, lookups, strict=True)

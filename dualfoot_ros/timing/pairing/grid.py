@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from typing import Protocol
 
 from .pairing_config import AlignerConfig
-from .sample_spacing import Spacing
 
 BEFORE_ALL = -(1 << 63)
 
@@ -14,8 +14,8 @@ BEFORE_ALL = -(1 << 63)
 class Grid(Protocol):
     """Stamps of the common grid, in increasing order."""
 
-    def admit(self, foot: str, stamp_ns: int) -> None:
-        """Learn that ``foot`` has a sample at ``stamp_ns``."""
+    def admit(self, foot: str, stamp_ns: int, lost_ns: Sequence[int] = ()) -> None:
+        """Learn that ``foot`` has a sample at ``stamp_ns``, and has lost some before it."""
 
     def head(self, newest_ns: int) -> int | None:
         """Return the next stamp a pair is wanted at, or None when none is known yet."""
@@ -48,20 +48,18 @@ class ReferenceGrid:
     def _restart(self) -> None:
         self._own: deque[int] = deque()
         self._holes: deque[tuple[int, int]] = deque()
-        self._spacing = Spacing(self._max_gap_ns)
         self._newest_ns = BEFORE_ALL
 
-    def admit(self, foot: str, stamp_ns: int) -> None:
-        """Take the stamp; one before the last pair comes too late."""
-        if foot != self._reference:
-            self._append(self._other, stamp_ns)
+    def admit(self, foot: str, stamp_ns: int, lost_ns: Sequence[int] = ()) -> None:
+        """Take the stamps; one before the last pair comes too late."""
+        own = foot == self._reference
+        for each_ns in (*lost_ns, stamp_ns):
+            self._append(self._own if own else self._other, each_ns)
+        if not own:
             return
-        for lost_ns in self._spacing.fill(stamp_ns):
-            self._append(self._own, lost_ns)
         if stamp_ns - self._newest_ns > self._max_gap_ns:
             self._holes.append((self._newest_ns, stamp_ns))
         self._newest_ns = stamp_ns
-        self._append(self._own, stamp_ns)
 
     def _append(self, pending: deque[int], stamp_ns: int) -> None:
         if stamp_ns > self._done_ns + self._tolerance_ns:
@@ -121,7 +119,7 @@ class UniformGrid:
         self._anchor: int | None = None
         self._next = 0
 
-    def admit(self, foot: str, stamp_ns: int) -> None:
+    def admit(self, foot: str, stamp_ns: int, lost_ns: Sequence[int] = ()) -> None:
         """Learn when each foot starts."""
         self._first.setdefault(foot, stamp_ns)
 

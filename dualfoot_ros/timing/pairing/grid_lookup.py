@@ -22,6 +22,7 @@ class GridLookup:
     weight : (N,) share of ``after`` in the value
     width_s : (N,) s, time between the two
     exact : (N,) a sample is within the tolerance and taken as it is
+    lost : (N,) that sample was lost, and is made of those around it
     between : (N,) interpolated, or the earlier one held
     outside : (N,) before the first or after the last sample
     """
@@ -31,12 +32,15 @@ class GridLookup:
     weight: FloatArray
     width_s: FloatArray
     exact: BoolArray
+    lost: BoolArray
     between: BoolArray
     outside: BoolArray
 
     @classmethod
-    def of(cls, stamps: IntArray, grid: IntArray, config: AlignerConfig) -> GridLookup:
-        """Place ``grid`` among increasing ``stamps``."""
+    def of(
+        cls, stamps: IntArray, grid: IntArray, config: AlignerConfig, lost: BoolArray | None = None
+    ) -> GridLookup:
+        """Place ``grid`` among increasing ``stamps``, of which some are of ``lost`` samples."""
         if not len(stamps):
             return cls._nowhere(len(grid))
         before = np.searchsorted(stamps, grid, side="right") - 1
@@ -52,18 +56,24 @@ class GridLookup:
         since = np.zeros(len(grid)) if config.holds else grid - stamps[low]
         weight = since / np.where(between, width, 1)
         taken = np.where(on_high & ~on_low, high, low)
-        return cls(taken, high, weight, width_s, exact, between, ~inside & ~exact)
+        made = np.zeros(len(grid), dtype=bool) if lost is None else exact & lost[taken]
+        return cls(taken, high, weight, width_s, exact, made, between, ~inside & ~exact)
 
     @classmethod
     def _nowhere(cls, count: int) -> GridLookup:
         """Return the lookup among no samples at all."""
         none, zeros = np.zeros(count, dtype=bool), np.zeros(count, dtype=np.int64)
-        return cls(zeros, zeros, np.zeros(count), np.zeros(count), none, none, ~none)
+        return cls(zeros, zeros, np.zeros(count), np.zeros(count), none, none, none, ~none)
 
     @property
     def found(self) -> BoolArray:
         """Where the foot has a value."""
         return self.exact | self.between
+
+    @property
+    def interpolated(self) -> BoolArray:
+        """Where the value is made of samples at other times."""
+        return self.between | self.lost
 
     def take(self, series: ImuSeries, grid: IntArray, kept: BoolArray) -> ImuSeries:
         """Return the series at the ``kept`` stamps of the grid, NaN where there is no value."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
-from ...core import ImuSeries, Refusal
+from ...core import BoolArray, FloatArray, ImuSeries, Refusal
 from .pairing_config import AlignerConfig
+
+INFINITE = 1e100  # no reading in any unit, and its square may overflow
 
 REFUSALS = (Refusal.NOT_FINITE, Refusal.DUPLICATE, Refusal.OUT_OF_ORDER)
 COUNTERS: tuple[str, ...] = ("accepted", *REFUSALS, Refusal.GAP)
@@ -76,8 +77,13 @@ class Gate:
 
 
 def all_finite(values: list[float]) -> bool:
-    """Tell whether every number is finite."""
-    return all(map(math.isfinite, values))
+    """Tell whether every number is finite, and so is its square."""
+    return all(-INFINITE < value < INFINITE for value in values)
+
+
+def finite_rows(values: FloatArray) -> BoolArray:
+    """Return (N,) where all numbers of ``values`` (N, K) are finite, and so are their squares."""
+    return np.asarray((np.abs(values) < INFINITE).all(axis=1))
 
 
 class Clean(NamedTuple):
@@ -98,7 +104,7 @@ def clean(series: ImuSeries, config: AlignerConfig | None = None) -> Clean:
     config = config or AlignerConfig()
     gate = Gate(config)
     values = np.hstack([series.specific_force, series.angular_rate])
-    finite = np.asarray(np.isfinite(values).all(axis=1))
+    finite = finite_rows(values)
     steps = np.diff(series.stamp_ns)
     if finite.all() and (steps > config.tolerance_ns).all():
         gate.counters["accepted"] = len(series)

@@ -127,9 +127,9 @@ class Aligner:
             self._follow(foot, stamp_ns)
         if not self._admit(foot, stamp_ns, all_finite(sample.tolist())):
             return []
-        self._buffers[foot].append(stamp_ns, sample)
+        lost_ns = self._buffers[foot].append(stamp_ns, sample)
         self._outcomes["late"] += self._paired_ns is not None and stamp_ns <= self._paired_ns
-        self._grid.admit(foot, stamp_ns)
+        self._grid.admit(foot, stamp_ns, lost_ns)
         self._welcome(foot, stamp_ns)
         return list(self._complete())
 
@@ -196,19 +196,21 @@ class Aligner:
 
     def _at(self, foot: str, stamp_ns: int, finished: bool) -> BufferedSample:
         """Return the sample of a foot, WAIT, or ABSENT when it is not waited for."""
-        found = self._buffers[foot].at(stamp_ns)
-        if found is not WAIT:
+        buffer = self._buffers[foot]
+        found = buffer.at(stamp_ns)
+        if found is not WAIT or not (finished or self._goes_on_without(foot, stamp_ns)):
             return found
-        if finished:
-            return ABSENT
+        found = buffer.at(stamp_ns, patient=False)
+        return ABSENT if found is WAIT else found
+
+    def _goes_on_without(self, foot: str, stamp_ns: int) -> bool:
+        """Return whether the pair of ``stamp_ns`` is not to wait for a foot any longer."""
         other = self._buffers[_other(foot)]
         waited_ns = other.newest_ns - stamp_ns if other.first_ns is not None else 0
         if waited_ns > self.config.max_delay_ns:
             self._given_up[foot] = True
         alone = foot not in self._feet
-        if alone or (self._given_up[foot] and waited_ns > self.config.tolerance_ns):
-            return ABSENT
-        return WAIT
+        return alone or (self._given_up[foot] and waited_ns > self.config.tolerance_ns)
 
     def _is_outside(self, found: Sequence[BufferedSample]) -> bool:
         """Return whether a foot begins or ends a moment later or earlier than the other."""

@@ -159,6 +159,11 @@ def imports(running, library):
     return any(running.maps(pid, library) for pid in running.others())
 
 
+def has_kernel(running):
+    """Tell whether a worker has the kernel: as a library from the cache, or by its compiler."""
+    return imports(running, "/kernel-") or imports(running, "llvmlite")
+
+
 MOMENTS = {
     "before any import": lambda running, cpu_s: True,
     "while it imports": lambda running, cpu_s: cpu_s > 0.3,
@@ -166,8 +171,8 @@ MOMENTS = {
     "when a worker is started": lambda running, cpu_s: running.others(),
     "when both are": lambda running, cpu_s: len(running.others()) == 2,
     "while they import": lambda running, cpu_s: imports(running, "_multiarray_umath"),
-    "while they load the kernel": lambda running, cpu_s: imports(running, "llvmlite"),
-    "while they work": lambda running, cpu_s: imports(running, "llvmlite") and cpu_s > 4.0,
+    "while they load the kernel": lambda running, cpu_s: has_kernel(running),
+    "while they work": lambda running, cpu_s: has_kernel(running) and cpu_s > 4.0,
 }
 
 

@@ -72,7 +72,7 @@ def write_library(path: Path, entries: Mapping[Entry, Any]) -> bool:
 
 def _object_code(entries: Mapping[Entry, Any]) -> bytes:
     """Return the machine code as LLVM writes it for a library: at any address."""
-    from llvmlite import binding
+    from numba.core.codegen import ll as binding  # its llvmlite
 
     symbols = {entry: done.fndesc.llvm_func_name for entry, done in entries.items()}
     text = adapter_text(symbols, binding.llvm_version_info[0])

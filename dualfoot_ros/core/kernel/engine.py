@@ -20,7 +20,7 @@ from . import (
     epoch,
     floor,
     measurement_update,
-    report,
+    output_row,
     stance_correction,
     strapdown,
     turn,
@@ -38,7 +38,7 @@ MODULES = (
     zero_velocity,
     detector,
     floor,
-    report,
+    output_row,
     epoch,
     turn,
 )

@@ -32,7 +32,7 @@ from .layout import (
     Z_LEFT,
     ZUPT_INFO,
 )
-from .report import (
+from .output_row import (
     collect_stand,
     emit,
     missing,

@@ -17,7 +17,7 @@ from processes import PATIENCE_S
 from dualfoot_ros.core import DualFootTracker
 from dualfoot_ros.core.compiler import BackgroundEngine, background, cache_directory
 from dualfoot_ros.core.compiler.shared_library import can_link
-from dualfoot_ros.core.kernel import ENTRIES, interpreted, report, turn
+from dualfoot_ros.core.kernel import ENTRIES, interpreted, output_row, turn
 from dualfoot_ros.core.kernel import layout as lay
 
 from ..following import live
@@ -151,7 +151,7 @@ def test_importing_the_core_imports_neither_numba_nor_scipy():
 def test_the_cache_is_another_one_for_another_source_of_the_kernel(tmp_path, monkeypatch):
     monkeypatch.setenv("DUALFOOT_CACHE_DIR", str(tmp_path))
     here = cache_directory()
-    monkeypatch.setattr(report, "O_STANCE", report.O_STANCE + 1)
+    monkeypatch.setattr(output_row, "O_STANCE", output_row.O_STANCE + 1)
     moved = cache_directory()
     monkeypatch.setattr(turn, "symmetrise", other_source := _renamed(turn.turn_rows))
     assert other_source.__module__ == turn.__name__

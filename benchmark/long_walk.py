@@ -1,6 +1,6 @@
 """What stops on the way and a memory of gyro biases bring on long walks (docs, heading).
 
-    python benchmark/long_walk.py [--seeds 12]
+    python -m benchmark.long_walk [--seeds 12]
 
 Simulated: 1100 m through streets, consumer sensors that warm up, tracked as it is live (no stand
 at the end is used).  The bias of each gyro differs from day to day by 0.25 mrad/s about each axis
@@ -15,15 +15,16 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 
-from dualfoot_ros.calibration.bias_memory import BiasMemory, RememberedStand
+from dualfoot_ros.calibration import BiasMemory, RememberedStand
 from dualfoot_ros.core import FEET, BiasPrior, DualFootTracker, FloatArray, TrackerConfig
-from dualfoot_ros.simulation import SensorConfig, Simulation, WalkConfig, simulate
+from dualfoot_ros.simulation import Simulation, WalkConfig, simulate
 from dualfoot_ros.simulation.sensors import SensorErrors
 from dualfoot_ros.timing import align
+
+from .slow_bends import end_error_m
 
 STANDS_S = (0.5, 2.0, 10.0)
 STOPS = {"nothing": 0, "three stops of 10 s": 3, "memory of five stands": 0}
@@ -36,11 +37,10 @@ def main() -> None:
     """Print a row for each length of the stand at the start."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=12, help="walks (default: %(default)s)")
-    parser.add_argument("--scale", type=float, default=1.0, help="of gyro scale errors (1)")
     args = parser.parse_args()
     print("stand at the start, what helps: error at the end (m), median [least, most]; ratio")
     for stand in STANDS_S:
-        errors = np.array([walk_errors(stand, k, args.scale) for k in range(args.seeds)])
+        errors = np.array([walk_errors(stand, k) for k in range(args.seeds)])
         base = errors[:, :1]
         for what, column, ratio in zip(STOPS, errors.T, (errors / base).T, strict=True):
             print(
@@ -51,23 +51,14 @@ def main() -> None:
             )
 
 
-def walk_errors(stand: float, seed: int, scale: float) -> list[float]:
+def walk_errors(stand: float, seed: int) -> list[float]:
     """Return the errors at the end with nothing, stops, and a memory."""
     found = []
     for what, stops in STOPS.items():
         config = WalkConfig(
             route="city", rate=60.0, standing=stand, stops=stops, stop_duration=10.0
         )
-        grade = SensorConfig()
-        made = simulate(
-            config,
-            replace(
-                grade,
-                gyro_scale=scale * grade.gyro_scale,
-                gyro_misalignment=scale * grade.gyro_misalignment,
-            ),
-            seed=seed,
-        )
+        made = simulate(config, seed=seed)
         priors = remembered(made, seed) if what.startswith("memory") else {}
         found.append(end_error(made, priors))
     return found
@@ -96,21 +87,7 @@ def end_error(made: Simulation, priors: Mapping[str, BiasPrior]) -> float:
     tracker = DualFootTracker(TrackerConfig())
     for foot, prior in priors.items():
         tracker.declare_bias(foot, prior)
-    run = tracker.run(*align(made.left, made.right))
-    stamps = run.left.stamp_ns
-    true = np.mean(
-        [
-            [np.interp(stamps, each.stamp_ns, x) for x in each.position.T[:2]]
-            for each in (made.left_truth, made.right_truth)
-        ],
-        axis=0,
-    ).T
-    middle = 0.5 * (run.left.position + run.right.position)[:, :2]
-    middle, true = middle - middle[0], true - true[0]
-    far = int(np.argmax(np.hypot(*true.T) > ALIGN_M))
-    angle = math.atan2(true[far, 1], true[far, 0]) - math.atan2(middle[far, 1], middle[far, 0])
-    c, s = math.cos(angle), math.sin(angle)
-    return float(np.hypot(*(middle[-1] @ np.array([[c, s], [-s, c]]) - true[-1])))
+    return end_error_m(made, tracker.run(*align(made.left, made.right)), ALIGN_M)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from dualfoot_ros.core import DualFootTracker, FloatArray, ImuSeries, TrackerConfig
+from dualfoot_ros.core import (
+    DualFootTracker,
+    FloatArray,
+    ImuSeries,
+    TrackerConfig,
+    Trajectory,
+)
 from dualfoot_ros.evaluation import truth_of
 from dualfoot_ros.recording import Recording
 from dualfoot_ros.simulation import SensorConfig, Simulation, WalkConfig, simulate
@@ -54,21 +60,25 @@ def walk_config(radius: float) -> WalkConfig:
 def end_error(made: Simulation, pair: tuple[ImuSeries, ImuSeries], *, aided: bool) -> float:
     """Return the error of the mean of both feet at the end, percent of the way."""
     config = TrackerConfig.from_mapping({"aids.straight_lines": aided})
-    run = DualFootTracker(config).run(*pair)
+    error_m = end_error_m(made, DualFootTracker(config).run(*pair), ALIGN_M)
+    return 100.0 * error_m / (BEND_M + 2.0 * STRAIGHT_M)
+
+
+def end_error_m(made: Simulation, run: Trajectory, align_m: float) -> float:
+    """Return the end error (m) of the mean of both feet, with the heading of ``align_m``, m."""
     truth = truth_of(Recording(made.left, made.right, made.left_truth, made.right_truth))
     assert truth is not None
     stamps = run.left.stamp_ns
     places = [np.stack([np.interp(stamps, t.stamp_ns, x) for x in t.position.T]) for t in truth]
     true = 0.5 * (places[0] + places[1])[:2].T
     middle = 0.5 * (run.left.position + run.right.position)[:, :2]
-    turned = aligned(middle - middle[0], true - true[0])
-    error = float(np.linalg.norm(turned[-1] - (true - true[0])[-1]))
-    return 100.0 * error / (BEND_M + 2.0 * STRAIGHT_M)
+    turned = aligned(middle - middle[0], true - true[0], align_m)
+    return float(np.linalg.norm(turned[-1] - (true - true[0])[-1]))
 
 
-def aligned(way: FloatArray, true: FloatArray) -> FloatArray:
-    """Return ``way`` (N, 2) turned so that it has the true direction where it is ALIGN_M long."""
-    far = int(np.argmax(np.linalg.norm(true, axis=1) > ALIGN_M))
+def aligned(way: FloatArray, true: FloatArray, align_m: float) -> FloatArray:
+    """Return ``way`` (N, 2) turned so that it has the true direction where it is so long, m."""
+    far = int(np.argmax(np.linalg.norm(true, axis=1) > align_m))
     (x, y), (u, v) = way[far], true[far]
     angle = math.atan2(x * v - y * u, x * u + y * v)
     c, s = math.cos(angle), math.sin(angle)

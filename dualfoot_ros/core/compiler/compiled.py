@@ -38,8 +38,11 @@ def _from_library(directory: Path) -> Engine | None:
     None where it cannot be linked, which an empty file in its place tells the next process.
     """
     path = library_path(directory)
-    if not path.exists() and can_link() and not write_library(path, _machine_code()):
-        path.touch()
+    try:
+        if not path.exists() and can_link() and not write_library(path, _machine_code()):
+            path.touch()
+    except OSError:  # a full disk, a folder that has gone
+        return None
     functions = load_library(path)
     return None if functions is None else Engine("compiled", **functions)
 

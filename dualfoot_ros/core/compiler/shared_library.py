@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
-import os
 import platform
 import shutil
 import subprocess
@@ -22,6 +21,7 @@ import numpy as np
 from .adapters import DATA, DIMENSIONS, PREFIX, TABLE, Entry, adapter_text
 
 LINKER = "cc"
+PROCESSOR = Path("/proc/cpuinfo")  # of Linux alone
 OPTIONS = ("-shared", "-nostartfiles", "-Wl,-z,defs")
 RESULTS: dict[str, Any] = {"i": ctypes.c_int64, "d": ctypes.c_double, "n": ctypes.c_void_p}
 ARGUMENTS: dict[str, Any] = {
@@ -41,14 +41,15 @@ def library_path(directory: Path) -> Path:
 
 def _processor() -> str:
     """Return what the machine code depends on: the instructions that the processor knows."""
-    lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
-    known = {line for line in lines if line.startswith(("flags", "Features", "model name"))}
+    text = PROCESSOR.read_text(encoding="utf-8") if PROCESSOR.exists() else ""
+    starts = ("flags", "Features", "model name")
+    known = {line for line in text.splitlines() if line.startswith(starts)}
     return f"{platform.machine()} {sorted(known)}"
 
 
 def can_link() -> bool:
     """Return whether a library can be made here: on Linux, with a C compiler."""
-    return os.name == "posix" and Path("/proc/cpuinfo").exists() and bool(shutil.which(LINKER))
+    return PROCESSOR.exists() and bool(shutil.which(LINKER))
 
 
 def write_library(path: Path, entries: Mapping[Entry, Any]) -> bool:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from typing import Any
 
 from rclpy.context import Context
@@ -19,6 +19,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor, T
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.subscription import Subscription
+from rclpy.timer import Timer
 
 LOOK_S = 1.0  # between looks at the events of publishers and subscriptions, as a QoS that misfits
 KINDS = ("subscription", "guard_condition", "timer", "client", "service")
@@ -116,16 +117,18 @@ class Executor(SingleThreadedExecutor):
     def _is_look_due(self) -> bool:
         return time.monotonic() >= self._look_s
 
+    def can_execute(self, entity: Any) -> bool:
+        """Return whether rclpy may call it: no timer and no message, which may never end."""
+        return not isinstance(entity, (Timer, Subscription)) and super().can_execute(entity)
+
     def _call_others(self) -> None:
-        """Have rclpy call what is ready, until nothing is."""
+        """Have rclpy call what else is ready, until nothing is."""
         self._look_s = time.monotonic() + LOOK_S
-        while True:
-            try:
+        with suppress(TimeoutException):
+            while True:
                 handler, _, _ = self.wait_for_ready_callbacks(timeout_sec=0.0)
-            except TimeoutException:
-                return
-            handler()
-            handler.result()  # raises what the callback raised
+                handler()
+                handler.result()  # raises what the callback raised
 
     def _let_go(self) -> None:
         if self._kept is not None:

@@ -143,6 +143,18 @@ def test_without_a_compiler_nothing_is_tried(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_on_another_system_than_linux_nothing_is_tried(tmp_path, monkeypatch):
+    monkeypatch.setattr(shared_library, "PROCESSOR", tmp_path / "none")
+    monkeypatch.setattr(compiled_kernel, "_machine_code", lambda: pytest.fail("compiled"))
+    assert compiled_kernel._from_library(tmp_path) is None
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_where_nothing_can_be_written_numba_is_asked(code, tmp_path, monkeypatch):
+    monkeypatch.setattr(compiled_kernel, "_machine_code", lambda: code)
+    assert compiled_kernel._from_library(tmp_path / "gone") is None
+
+
 def test_every_entry_has_a_description_that_is_read_as_it_is_written():
     entries = [compiled_kernel._entry(*each) for each in compiled_kernel._signatures().items()]
     assert {entry.name for entry in entries} == set(ENTRIES)

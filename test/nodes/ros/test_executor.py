@@ -9,6 +9,7 @@ import rclpy
 from processes import PATIENCE_S
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
 from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
 
@@ -64,6 +65,21 @@ def test_a_timer_keeps_its_period_and_one_that_is_cancelled_is_silent(bench, got
     other = node.create_timer(0.01, lambda: (got.append("other"), other.cancel()))
     bench.until(lambda: got.count("kept") >= 5)
     assert got.count("other") == 1 and not kept.is_canceled()
+
+
+@pytest.mark.parametrize("look_s", [0.0, 3600.0])
+def test_a_timer_that_is_always_due_is_called_once_a_turn(context, got, monkeypatch, look_s):
+    """... so that the caller sees between two calls whether it is to end."""
+    monkeypatch.setattr(executor_module, "LOOK_S", look_s)
+    node, executor = Node("busy", context=context), Executor(context=context)
+    node.create_timer(1e-9, lambda: got.append(1))
+    executor.add_node(node)
+    for turn in range(1, 51):
+        executor.spin_once(timeout_sec=1.0)
+        assert len(got) <= turn
+    assert len(got) > 40
+    executor.shutdown()
+    node.destroy_node()
 
 
 def test_a_service_answers(bench, got):

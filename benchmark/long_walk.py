@@ -19,7 +19,14 @@ from collections.abc import Mapping
 import numpy as np
 
 from dualfoot_ros.calibration import BiasMemory, RememberedStand
-from dualfoot_ros.core import FEET, BiasPrior, DualFootTracker, FloatArray, TrackerConfig
+from dualfoot_ros.core import (
+    FEET,
+    BiasPrior,
+    DualFootTracker,
+    FloatArray,
+    ImuSeries,
+    TrackerConfig,
+)
 from dualfoot_ros.simulation import Simulation, WalkConfig, simulate
 from dualfoot_ros.simulation.sensors import SensorErrors
 from dualfoot_ros.timing import align
@@ -31,6 +38,7 @@ STOPS = {"nothing": 0, "three stops of 10 s": 3, "memory of five stands": 0}
 DAY_TO_DAY = 2.5e-4  # rad/s
 EARLIER, EARLIER_STD = 5, 4.5e-4  # stands in the memory, and how far one is off, rad/s
 ALIGN_M = 60.0
+AT_REST = 15  # samples of every walk
 
 
 def main() -> None:
@@ -67,9 +75,12 @@ def walk_errors(stand: float, seed: int) -> list[float]:
 def remembered(made: Simulation, seed: int) -> Mapping[str, BiasPrior]:
     """Return what a memory of earlier stands says of both gyros of a walk."""
     memory = BiasMemory()
-    for foot, errors in zip(FEET, (made.left_errors, made.right_errors), strict=True):
+    sensors = zip(
+        FEET, (made.left_errors, made.right_errors), (made.left, made.right), strict=True
+    )
+    for foot, errors, samples in sensors:
         rng = np.random.default_rng([seed, FEET.index(foot)])
-        usual = at_start(errors) + DAY_TO_DAY * rng.standard_normal(3)
+        usual = at_start(errors, samples) + DAY_TO_DAY * rng.standard_normal(3)
         for _ in range(EARLIER):
             told = usual + math.hypot(DAY_TO_DAY, EARLIER_STD) * rng.standard_normal(3)
             x, y, z = told.tolist()
@@ -77,9 +88,11 @@ def remembered(made: Simulation, seed: int) -> Mapping[str, BiasPrior]:
     return memory.priors()
 
 
-def at_start(errors: SensorErrors) -> FloatArray:
-    """Return the gyro bias (3,) rad/s of a sensor that has just been switched on."""
-    return errors.rate_bias + errors.rate_warm_up
+def at_start(errors: SensorErrors, samples: ImuSeries) -> FloatArray:
+    """Return what a gyro at rest shows (3,) rad/s that has just been switched on."""
+    gravity = samples.specific_force[:AT_REST].mean(axis=0)
+    bias: FloatArray = errors.rate_bias + errors.rate_warm_up + errors.g_matrix @ gravity
+    return bias
 
 
 def end_error(made: Simulation, priors: Mapping[str, BiasPrior]) -> float:

@@ -192,7 +192,8 @@ class PairStream:
         if self.pose is not None:
             before = (*before, *self._apply_pose(session, stamp))
         row, found = session.step(stamp, dt_ns * 1e-9, values)
-        if not np.isfinite(row).all():  # the last guard: nothing that is no number ever leaves
+        blocks = session.told()
+        if blocks is None:  # the last guard: nothing that is no number ever leaves
             self.reset(stamp, Reason.NOT_FINITE)
             return Update(stamp, "aligning", events=self._take_pending())
         return Update(
@@ -200,7 +201,7 @@ class PairStream:
             session.phase,
             row=row,
             events=(*before, *found) if found else before,
-            blocks=session.space.blocks(),
+            blocks=blocks,
             facing=session.facing,
         )
 

@@ -36,6 +36,7 @@ ENTRY_KINDS = {
     "restore": Entry((_W, _N, _I)),
     "set_flags": Entry((_N, _I, _I, _I, _I)),
     "emit": Entry((_W, _N, _ROWS, _I)),
+    "tell": Entry((_W, _ROWS, _I, _W), _I),
     "collect": Entry((_W, _I)),
     "correct": Entry((_W, _I), _X),
     "correct_considering": Entry((_W, _I, _I), _X),

@@ -39,6 +39,9 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     functions["restore"](w, n, 3)
     functions["rerun"](w, n, 3, EPOCHS - 1)
     functions["emit"](w, n, out, 0)
+    blocks = np.zeros(3 * lay.BLOCK)
+    numbers = functions["tell"](w, out, 0, blocks)
+    yield np.append(blocks, numbers).tobytes()
     yield w.tobytes() + n.tobytes() + out.tobytes()
     for kind in (None, lay.KNOW_ALL, lay.KNOW_COMMON, lay.KEEP_PLACE):
         yield _updated(functions, w, kind)

@@ -48,6 +48,7 @@ ENTRIES = (
     "restore",
     "set_flags",
     "emit",
+    "tell",
     "collect",
     "correct",
     "correct_considering",
@@ -66,6 +67,7 @@ class Engine:
     restore: Callable[..., Any]
     set_flags: Callable[..., Any]
     emit: Callable[..., Any]
+    tell: Callable[..., Any]
     collect: Callable[..., Any]
     correct: Callable[..., Any]
     correct_considering: Callable[..., Any]

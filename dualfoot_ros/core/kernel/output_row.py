@@ -10,7 +10,9 @@ from .layout import (
     A_SQUARES,
     A_STRIDE,
     A_SUM,
+    BLOCK,
     C_HEIGHT_DRIFT,
+    DIAGONAL,
     E_ATT,
     E_POS,
     E_VEL,
@@ -41,6 +43,7 @@ from .layout import (
     O_STANCE,
     O_VEL,
     O_ZUPT,
+    OUT,
     PLL,
     PLR,
     POS,
@@ -54,6 +57,8 @@ from .layout import (
     Z_LEFT,
     ZUPT_INFO,
 )
+
+LARGEST = 1.7976931348623157e308  # number there is
 
 
 def missing(w, sample):
@@ -117,7 +122,7 @@ def emit(w, n, out, k):
     every stride and in both feet, so the error of the height grows with the time walked and not
     with its root.  It is no state: the variance that is told takes (drift t)^2 beside that of P.
     """
-    drifted = w[C_HEIGHT_DRIFT] * w[WALKED] * w[WALKED]
+    drifted = height_drift(w)
     flags = n[N_FLAGS + n[N_EPOCH] % n[N_RING]]
     for foot in range(2):
         s = foot * FOOT
@@ -148,6 +153,34 @@ def emit(w, n, out, k):
                 + w[PRR + ROW * i + j]
                 - (w[PLR + ROW * i + j] + w[PLR + ROW * j + i])
             )
+
+
+def height_drift(w):
+    """Return what the drift of the height adds to its variance, m^2."""
+    return w[C_HEIGHT_DRIFT] * w[WALKED] * w[WALKED]
+
+
+def tell(w, out, k, blocks):
+    """Write the covariance to ``blocks`` (3 BLOCK,); return whether all of row ``k`` is numbers.
+
+    The blocks are left, right, cross.  Velocities are in the navigation frame: that of the floor
+    counts for both feet.  So does the drift of the height, which is alike in both.
+    """
+    for i in range(3 * BLOCK):
+        blocks[i] = w[PLL + i]
+    drifted = height_drift(w)
+    moves = floor_moves(w)
+    for b in range(3):
+        blocks[BLOCK * b + DIAGONAL * (E_POS + 2)] += drifted
+        if moves:
+            for i in range(3):
+                std = w[FLOOR_UP_STD] if i == 2 else w[FLOOR_STD]
+                blocks[BLOCK * b + DIAGONAL * (E_VEL + i)] += std * std
+    numbers = 0
+    for i in range(OUT):
+        if abs(out[k, i]) <= LARGEST:
+            numbers += 1
+    return numbers == OUT
 
 
 def emit_floor(w, out, k):

@@ -103,21 +103,6 @@ class Workspace:
         block = lay.PLL if foot == 0 else lay.PRR
         return self.w[block : block + lay.BLOCK].reshape(15, lay.ROW)[:, :15]
 
-    def blocks(self) -> FloatArray:
-        """Return a copy of the covariance blocks (3 BLOCK,): left, right, cross.
-
-        Velocities are in the navigation frame: that of the floor counts for both feet.  So does
-        the drift of the height, which is alike in both (``zupt.height_drift``).
-        """
-        blocks = self.w[lay.PLL : lay.STATE].copy()
-        drifted = self.w[lay.C_HEIGHT_DRIFT] * self.w[lay.WALKED] * self.w[lay.WALKED]
-        blocks[lay.DIAGONAL * (lay.E_POS + 2) :: lay.BLOCK] += drifted
-        level, up = self.w[lay.FLOOR_STD], self.w[lay.FLOOR_UP_STD]
-        if level > 0.0 or up > 0.0:
-            for i, std in enumerate((level, level, up)):
-                blocks[lay.DIAGONAL * (lay.E_VEL + i) :: lay.BLOCK] += std**2
-        return blocks
-
     def put_covariance(self, covariance: FloatArray) -> None:
         """Write the full covariance (30, 30); of symmetric elements those above the diagonal."""
         P = np.triu(covariance) + np.triu(covariance, 1).T

@@ -112,7 +112,7 @@ class Update:
     ) -> None:
         """Keep what was computed.
 
-        ``blocks`` is the covariance as `Workspace.blocks` gives it, ``facing`` what the headings
+        ``blocks`` is the covariance as `Session.told` gives it, ``facing`` what the headings
         of the feet follow from.
         """
         self.stamp_ns, self.phase, self.refused, self.row = stamp_ns, phase, refused, row

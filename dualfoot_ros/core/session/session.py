@@ -119,6 +119,12 @@ class Session:
             walk.engine.emit(space.w, n, self._row, 0)
         return self._row[0].copy(), found
 
+    def told(self) -> FloatArray | None:
+        """Return the covariance (3 BLOCK,) of the newest epoch; None if its row is no numbers."""
+        blocks = np.empty(3 * lay.BLOCK)
+        good = self._walk.engine.tell(self.space.w, self._row, 0, blocks)
+        return blocks if good else None
+
     def _refine(self, stamp: int, values: FloatArray) -> None:
         """Level anew when the stand has gone on for a window's length more."""
         alignment = self._alignment

@@ -42,6 +42,8 @@ class Worst:
     least_eigenvalue : of P as correlations (over its trace, 30)
     skewness : greatest element of R' R - I of both attitudes
     finite : all numbers were
+    position_std : greatest standard deviation of a position, m
+    heading_std : of a heading, rad
     """
 
     checks: int = 0
@@ -49,6 +51,8 @@ class Worst:
     least_eigenvalue: float = float("inf")
     skewness: float = 0.0
     finite: bool = True
+    position_std: float = 0.0
+    heading_std: float = 0.0
 
     def look(self, space: Workspace) -> None:
         """Take what a workspace is now."""
@@ -59,6 +63,9 @@ class Worst:
         apart = max(float(np.abs(block - block.T).max()) for block in own)
         self.asymmetry = max(self.asymmetry, apart / float(np.abs(P).max()))
         std = np.sqrt(np.diag(P))
+        feet = std.reshape(2, lay.ERRORS)
+        self.position_std = max(self.position_std, float(feet[:, lay.E_POS : lay.E_VEL].max()))
+        self.heading_std = max(self.heading_std, float(feet[:, lay.E_ATT + 2].max()))
         least = float(np.linalg.eigvalsh(P / np.outer(std, std))[0]) / len(P)
         self.least_eigenvalue = min(self.least_eigenvalue, least)
         for foot in range(2):

@@ -12,6 +12,7 @@ import numpy as np
 
 from .kernel import Engine
 from .kernel import layout as lay
+from .kernel.turn import keeps_gauge
 from .results.payloads import NO_DETAILS, Payload, named_values
 from .samples.series import FloatArray
 
@@ -96,6 +97,11 @@ class JointEstimate:
         """Return the gyro bias (3,) rad/s of foot 0 or 1."""
         start = foot * lay.FOOT + lay.BG
         return self._space.w[start : start + 3].copy()
+
+    @property
+    def keeps_gauge(self) -> bool:
+        """Whether updates must leave what a turn of a whole track is."""
+        return any(keeps_gauge(self._space.w, foot) for foot in range(2))
 
     def keep_gyro_bias_std(self, foot: int, least: float) -> None:
         """Let no gyro bias of foot 0 or 1 be known better than to ``least`` rad/s.

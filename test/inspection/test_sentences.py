@@ -168,6 +168,7 @@ def test_these_recordings_show_all_but_a_few_kinds(plain):
         "restless_start",
         "rate_used",
         "carried",
+        "lost_heading",
         *OF_WALKS,
     }
     assert seen | rare == kinds_made_in("inspection")

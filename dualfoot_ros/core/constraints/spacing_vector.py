@@ -141,7 +141,9 @@ class SpacingVector(Method):
         directions, targets, stds = self._rows(left, spacing)
         found = [dot(direction, r) for direction in directions]
         innovation = [a - b for a, b in zip(found, targets, strict=True)]
-        rows = [self._row(direction, left, spacing) for direction in directions]
+        # the feet are where they are however the walk is turned, even where they do not fit
+        side, length = (r, 1.0) if estimate.keeps_gauge else (left, spacing)
+        rows = [self._row(direction, side, length) for direction in directions]
         variances = [max(std**2, 1e-12) for std in stds]
         correction = HeadingCorrection(config.heading_correction)
         s, nis = estimate.update(rows, innovation, variances, correction)

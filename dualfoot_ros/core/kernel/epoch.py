@@ -28,6 +28,7 @@ from .layout import (
     S_SF,
     SAMPLE,
     STATE,
+    TRACKED,
     WALKED,
     Z_LEFT,
     ZUPT_INFO,
@@ -76,6 +77,7 @@ def filter_epoch(w, n, epoch, coupled):
             w[o] = x
             w[o + 1] = y
             w[o + 2] = z
+    w[TRACKED] += dt
     if flags % FLAG_STILL != 3:  # one foot swings
         w[WALKED] += dt
     for foot in range(2):

@@ -18,6 +18,7 @@ RATE = 27  # last bias-corrected angular rate, rad/s
 FORCE = 30  # last bias-corrected specific force, m/s^2
 FOLLOWS = 33  # 1 when the sample before was the one before in time, 0 at the start and after a gap
 WALKED = 34  # time walked since the height was observed, s; in the left foot's state only
+TRACKED = 35  # time since the start, s; in the left foot's state only
 FLOOR_VEL = FOOT + 34  # in the right foot's state: velocity of the floor under both feet, m/s
 FLOOR_STD = FOOT + 37  # its standard deviation, horizontal; 0 with the next: the floor is at rest
 FLOOR_UP_STD = FOOT + 38  # vertical, m/s

@@ -45,6 +45,7 @@ from .layout import (
     VEL,
 )
 from .strapdown import rotate_navigation, rotation_increment
+from .turn import keeps_gauge, turn_correction
 
 
 def collect(w, rows):
@@ -197,6 +198,8 @@ def feed_back_foot(w, foot):
         w[o + BA + i] += w[d + E_BA + i]
     rotation_increment(w, w[d + E_ATT], w[d + E_ATT + 1], w[d + E_ATT + 2])
     rotate_navigation(w, foot)
+    if keeps_gauge(w, foot):
+        turn_correction(w, foot)
 
 
 def weigh(w, side, count):

@@ -49,13 +49,13 @@ def correct_stance(w, foot, still):
                 w[S_K + JOINT * k + SIDE * (1 - foot) + j] = 0.0
         clear_place(w, SIDE * foot)
     weigh(w, 0, JOINT)
+    take_products(w, PLR, 0, SIDE)
     if foot == 0 or not still:
         take_products(w, PLL, 0, 0)
         feed_back_foot(w, 0)
     if foot == 1 or not still:
         take_products(w, PRR, SIDE, SIDE)
         feed_back_foot(w, 1)
-    take_products(w, PLR, 0, SIDE)
     return nis
 
 

@@ -51,6 +51,7 @@ from .layout import (
 )
 from .measurement_update import correct
 from .stance_correction import bias_known, correct_alone, correct_stance, correct_standing
+from .turn import HEADING, keeps_gauge
 
 
 def zupt(w, foot, still=False, coupled=True):
@@ -125,6 +126,10 @@ def put_rows(w, foot):
     w[h + JOINT + E_ATT + 2] = -lz * wy
     w[h + 2 * JOINT + E_ATT] = wx * lz - lx * wz
     w[h + 2 * JOINT + E_ATT + 1] = wy * lz - ly * wz
+    if keeps_gauge(w, foot):  # a turn of the whole track shows no velocity
+        w[h + HEADING] = -w[o + VEL + 1]
+        w[h + JOINT + HEADING] = w[o + VEL]
+        w[h + 2 * JOINT + HEADING] = 0.0
     # innovation v + P omega x l, estimate minus zero; the velocity is added later
     w[S_Y] = wy * lz
     w[S_Y + 1] = -wx * lz

@@ -26,6 +26,7 @@ PACE_S = 10.0  # over which the pace is taken
 SLOW = 0.2  # m/s; who is slower stands
 USUAL_PACE = 1.2  # m/s, before anybody has walked
 PRECISION_M = 0.1  # of a way that is foretold
+LOST_STD = 0.5  # rad, standard deviation of a heading beyond which it is lost
 FARTHEST_M = 1.0e5  # beyond this nothing is foretold
 
 
@@ -41,6 +42,7 @@ class Trust:
     way_left_m : way straight ahead until the radius passes the limit; infinite when it will not
     time_left_s : the same at the present pace; infinite for a person who stands
     pace : m/s
+    heading_std : rad
     """
 
     stamp_ns: int
@@ -50,11 +52,17 @@ class Trust:
     way_left_m: float
     time_left_s: float
     pace: float
+    heading_std: float = 0.0
 
     @property
     def trusted(self) -> bool:
         """Whether the radius is within the limit."""
         return self.radius_m <= self.limit_m
+
+    @property
+    def heading_lost(self) -> bool:
+        """Whether the heading was known and is so no more."""
+        return self.heading_known and self.heading_std > LOST_STD
 
 
 class TrustTracker:
@@ -135,7 +143,8 @@ class TrustTracker:
         time_s = way / self._pace if way == 0.0 or not self._slow else math.inf
         pace = 0.0 if self._slow else self._pace
         known = self._known
-        return Trust(self._stamp_ns, radius, self.limit_m, known, way, time_s, pace)
+        heading_std = math.sqrt(self._variance)
+        return Trust(self._stamp_ns, radius, self.limit_m, known, way, time_s, pace, heading_std)
 
     def _way_left(self, radius: float) -> float:
         """Return the way (m) straight ahead until the radius passes the limit."""

@@ -8,7 +8,7 @@ from .ride_findings import ride_findings
 from .start_findings import start_findings
 from .stream_findings import STUCK_SHARE
 from .unit_findings import GRAVITY_ERROR
-from .walk_findings import coupled_findings, walk_findings
+from .walk_findings import coupled_findings, lost_heading, walk_findings
 
 __all__ = [
     "GRAVITY_ERROR",
@@ -21,6 +21,7 @@ __all__ = [
     "coupled_findings",
     "find_other_rate",
     "findings_of",
+    "lost_heading",
     "qualities_of",
     "rate_findings",
     "require_usable",

@@ -91,6 +91,7 @@ class FindingKind(StrEnum):
     FEET_APART = "feet_apart", True
     SPACING = "spacing", True
     CARRIED = "carried", True
+    LOST_HEADING = "lost_heading", True
 
     # topics
     NO_PUBLISHER = "no_publisher"

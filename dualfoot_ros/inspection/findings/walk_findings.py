@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 
 from ...core import Trajectory, stance_passings
@@ -14,7 +15,8 @@ from .feet_findings import (
     find_spacing,
     find_unequal_ways,
 )
-from .finding import Finding
+from .finding import Finding, Severity
+from .finding_kinds import FindingKind
 from .stance_findings import (
     find_long_strides,
     find_missed_stances,
@@ -36,6 +38,18 @@ OF_PASSINGS: Sequence[Callable[[WalkFacts, SideBySide], Iterator[Finding]]] = (
     find_exchanged,
     find_spacing,
 )
+
+
+LOST_REMEDY = (
+    "give the pose of the person anew (initialpose, set_pose); for hours of walking use an aid "
+    "that knows the heading (aids.magnetic_heading, aids.straight_lines)"
+)
+
+
+def lost_heading(std: float) -> Finding:
+    """Return the finding on a heading that is known to ``std`` (rad) and no better."""
+    text = f"the heading is lost: it is off by {math.degrees(std):.0f} degrees (one sigma)"
+    return Finding(FindingKind.LOST_HEADING, Severity.WARNING, text, LOST_REMEDY)
 
 
 def walk_findings(trajectory: Trajectory) -> Iterator[Finding]:

@@ -19,6 +19,7 @@ from ...core import (
     TrustTracker,
     Update,
 )
+from ...inspection import lost_heading
 from ...settings import FrameConfig, PathConfig, PersonConfig
 from ..ros import qos
 from ..ros.cdr_odometry import OdometryBytes
@@ -137,6 +138,8 @@ class TrustOutput:
         if trust is not None:
             status.values |= trust_values(trust)
             status.values["trust"] = trust_sentence(trust)
+            if trust.heading_lost:
+                status.note(lost_heading(trust.heading_std))
 
 
 def trust_values(trust: Trust) -> dict[str, float | bool]:
@@ -153,6 +156,8 @@ def trust_values(trust: Trust) -> dict[str, float | bool]:
 def trust_sentence(trust: Trust) -> str:
     """Return in words what the position is worth."""
     radius = f"position within {trust.radius_m:.2g} m (95 %)"
+    if trust.heading_lost:
+        return f"{radius}; the heading is lost: give a pose, or use a heading aid"
     if not trust.trusted:
         return f"{radius}, beyond the limit of {trust.limit_m:g} m"
     if not trust.heading_known:

@@ -2,6 +2,7 @@
 
 import json
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,9 +12,15 @@ from visualization_msgs.msg import MarkerArray
 
 from dualfoot_ros.core import DualFootTracker, ImuPair, Step, Trust
 from dualfoot_ros.core.samples.series import stack_pairs
-from dualfoot_ros.nodes.results.person_outputs import PersonOutputs, trust_message, trust_sentence
+from dualfoot_ros.inspection import FindingKind
+from dualfoot_ros.nodes.results.person_outputs import (
+    PersonOutputs,
+    TrustOutput,
+    trust_message,
+    trust_sentence,
+)
 from dualfoot_ros.nodes.results.step_outputs import step_message
-from dualfoot_ros.nodes.ros.status import OK, WARN
+from dualfoot_ros.nodes.ros.status import OK, WARN, Status
 from dualfoot_ros.recording import read_bag
 from dualfoot_ros.settings import FrameConfig, PathConfig, PersonConfig
 from dualfoot_ros.timing import align
@@ -33,6 +40,29 @@ def test_trust_is_said_in_words(radius, known, way, time_s, words):
     trust = Trust(0, radius, 3.0, known, way, time_s, 1.25)
     assert words in trust_sentence(trust)
     assert trust_message(trust).level == (WARN if radius > 3.0 else OK)
+
+
+@pytest.mark.parametrize(
+    ("std", "known", "lost"), [(0.6, True, 1), (0.4, True, 0), (1.8, False, 0)]
+)
+def test_a_heading_that_is_lost_is_said_with_what_to_do(std, known, lost):
+    trust = Trust(0, 1.0, 3.0, known, math.inf, math.inf, 1.25, std)
+    assert ("give a pose" in trust_sentence(trust)) == bool(lost)
+    person = PersonTrust(trust)
+    assert len(person.findings) == lost
+    for finding in person.findings:
+        assert finding.kind is FindingKind.LOST_HEADING and finding.kind.logged_once
+        assert "34 degrees" in finding.sentence and "initialpose" in finding.sentence
+
+
+class PersonTrust(Status):
+    """The status that a trust output makes of a ``trust``."""
+
+    def __init__(self, trust: Trust) -> None:
+        super().__init__()
+        output = TrustOutput.__new__(TrustOutput)
+        output.tracker = SimpleNamespace(result=lambda: trust)
+        output.describe(self)
 
 
 def test_a_step_is_read_back_from_its_message():

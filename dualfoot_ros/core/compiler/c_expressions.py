@@ -122,6 +122,8 @@ class ExpressionWriter:
             return f"{'fabs' if kind is REAL else 'llabs'}({texts[0]})", kind
         if name == "int":
             return f"(int64_t)({texts[0]})", INTEGER
+        if name == "bool":
+            return f"({texts[0]} != 0)", INTEGER
         if name.removeprefix("math.") in OF_THE_LIBRARY:
             return f"{name.removeprefix('math.')}({', '.join(texts)})", REAL
         raise self._unknown(node)

@@ -21,7 +21,7 @@ def whole_numbers(n, a, b):
     """Division and remainder round towards less."""
     n[0], n[1] = a // b, a % b
     n[2] = (a & 5) | (b << 2) | (a >> 1)
-    n[3] = ~a & 1
+    n[3] = (~a & 1) + bool(a)
     n[4] = min(a, b, 3) + max(a, b) + abs(a)
     return a - -b
 

@@ -74,9 +74,7 @@ class RollBack:
             if outcome.accepted:
                 self._actions.append((request.epoch if request.roll_back else now, request.apply))
         if len(self._actions) > ACTIONS:
-            oldest = (
-                self._space.oldest
-            )  # asked once: a constraint at each epoch makes many actions
+            oldest = self._space.oldest  # asked once: some methods act at every epoch
             self._actions = [action for action in self._actions if action[0] >= oldest]
         return pairs
 

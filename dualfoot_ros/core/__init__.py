@@ -54,6 +54,7 @@ from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stanc
 from .results.update import FootEstimate, PedestrianEstimate, Update
 from .rotation import (
     about_z,
+    exact_rotation,
     mean_angle,
     quaternion_matrices,
     quaternion_matrix,
@@ -165,6 +166,7 @@ __all__ = [
     "check",
     "clean_stance",
     "dot",
+    "exact_rotation",
     "fields_of",
     "mean_angle",
     "method_parameters",

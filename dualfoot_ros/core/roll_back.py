@@ -74,7 +74,8 @@ class RollBack:
             if outcome.accepted:
                 self._actions.append((request.epoch if request.roll_back else now, request.apply))
         if len(self._actions) > ACTIONS:
-            self._actions = [a for a in self._actions if a[0] >= self._space.oldest]
+            oldest = self._space.oldest  # asked once: some methods act at every epoch
+            self._actions = [action for action in self._actions if action[0] >= oldest]
         return pairs
 
     def _replay(self, first: int, fresh: Sequence[Request]) -> list[Outcome]:

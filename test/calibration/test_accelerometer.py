@@ -87,7 +87,7 @@ def test_the_standard_deviation_of_the_bias_is_the_scatter_of_the_bias():
     rng = np.random.default_rng(3)
     ups = well_spread(16)
     found, told = [], []
-    for _ in range(60):
+    for _ in range(30):
         disturbed = [rng.normal(0.0, 0.02) for _ in ups]
         parts = segments(ups)
         for part, error in zip(parts, disturbed, strict=True):

@@ -40,8 +40,8 @@ def tumbled(tmp_path_factory):
 def bags(tmp_path_factory):
     """Return walks as bags: a figure of eight, the same exchanged, a straight line."""
     folder = tmp_path_factory.mktemp("walks")
-    eight = simulate(WalkConfig(route="figure_eight"), seed=1)
-    line = simulate(WalkConfig(route="straight"), seed=1)
+    eight = simulate(WalkConfig(route="figure_eight", rate=60.0), seed=1)
+    line = simulate(WalkConfig(route="straight", rate=60.0), seed=1)
     write_bag(folder / "eight", Recording(eight.left, eight.right))
     write_bag(folder / "exchanged", Recording(eight.right, eight.left))
     write_bag(folder / "line", Recording(line.left, line.right))
@@ -181,7 +181,7 @@ def doubtful(tmp_path_factory):
     lap, iron = WalkConfig(route="track", rate=60.0, standing=5.0), MagnetometerConfig(hard_iron=3)
     made = simulate(lap, seed=2, magnetometer=iron)
     write_bag(folder / "lap", Recording(made.left, made.right))
-    eight = simulate(WalkConfig(route="figure_eight"), seed=1)
+    eight = simulate(WalkConfig(route="figure_eight", rate=60.0), seed=1)
     write_bag(folder / "outwards", Recording(turned(eight.left, 0.3), turned(eight.right, -0.3)))
     return {name: str(folder / name) for name in ("lap", "outwards")}
 

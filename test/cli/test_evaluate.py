@@ -15,7 +15,7 @@ from dualfoot_ros.simulation import BarometerConfig, WalkConfig, simulate
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory):
     """Return a simulated walk with truth on disk."""
-    made = simulate(WalkConfig(route="straight"), seed=4)
+    made = simulate(WalkConfig(route="straight", rate=60.0), seed=4)
     path = tmp_path_factory.mktemp("bags") / "walk"
     write_bag(path, Recording(made.left, made.right, made.left_truth, made.right_truth))
     return str(path)
@@ -162,7 +162,8 @@ def test_the_command_as_a_process_gives_json_on_standard_output_only(bag):
 
 
 def test_the_barometer_can_be_switched_on_and_its_height_error_is_in_the_table(tmp_path, capsys):
-    made = simulate(WalkConfig(route="stairs"), seed=0, barometer=BarometerConfig(worn="body"))
+    climb = WalkConfig(route="stairs", rate=60.0)
+    made = simulate(climb, seed=0, barometer=BarometerConfig(worn="body"))
     truth = made.left_truth, made.right_truth
     bag = str(
         write_bag(

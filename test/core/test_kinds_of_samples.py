@@ -13,7 +13,7 @@ from dualfoot_ros.simulation import ClockConfig, WalkConfig, grade, simulate, wa
 from dualfoot_ros.timing import align
 
 COMPENSATED, AVERAGED, SAMPLED = Increments
-RATES_HZ = (60.0, 100.0, 200.0)
+RATES_HZ = (60.0, 100.0)  # the lower, the more the samples hide; beyond it is less still
 # degrees; from one seed to the next the heading at the end of such a lap scatters by 4 to 5
 ALIKE, ALIKE_FOR_SAMPLED, ALIKE_AT_60_HZ = 1.0, 1.5, 3.0
 

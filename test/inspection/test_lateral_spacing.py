@@ -112,7 +112,7 @@ def test_the_scatter_is_that_of_the_steps():
 def test_the_uncertainty_is_honest_on_simulated_walks(route, errors):
     sigmas = []
     for seed in range(3):
-        made = simulate(WalkConfig(route=route), SensorConfig(errors=errors), seed=seed)
+        made = simulate(WalkConfig(route=route, rate=60.0), SensorConfig(errors=errors), seed=seed)
         found = spacing_of(made.left, made.right)
         sigmas.append((found.spacing_m - 0.145) / found.std_m)
     assert np.abs(sigmas).max() < 3.0

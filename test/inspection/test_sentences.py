@@ -67,7 +67,7 @@ def with_rate_of(series, other):
 
 
 def exchanged():
-    made = simulate(WalkConfig(route="rectangle"), seed=1)
+    made = simulate(WalkConfig(route="rectangle", rate=60.0), seed=1)
     return Recording(made.right, made.left)
 
 

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import FloatArray, Increments, skew, stance_bounds
+from ...core import FloatArray, Increments, exact_rotation, skew, stance_bounds
 from .foot_walk import NO_GAP_S, FootWalk
 
 ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
@@ -167,6 +167,8 @@ class _Pass:
         turns, self._push = increments(walk.force, self._rate, self._dt, walk.increments)
         self._turn = rotations(turns)
         self._columns = rate_columns(self._rate)
+        self._turned = self._columns * self._dt[:, None, None]
+        self._seconds: list[float] = self._dt.tolist()
         self._pivot_axes = -np.stack([walk.up, walk.forward], axis=1)
         self._point = point
         self._samples = np.ones(len(walk))
@@ -174,6 +176,8 @@ class _Pass:
         for first, end in stance_bounds(walk.stance):
             self._samples[first:end] = min(end - first, longest)
         self._transition = np.eye(STATES)  # each sample writes the same blocks of it
+        self._row = np.zeros((3, STATES))  # and each sample of a stance the same of this one
+        self._row[:, VEL] = IDENTITY
         self._added = np.repeat([noise.gyro**2, noise.accelerometer**2], 3)
         self._r, self._v = walk.attitude.copy(), np.zeros(3)
         self._x, self._p = np.zeros(STATES), noise.start(walk.bias_std)
@@ -200,21 +204,20 @@ class _Pass:
         return self._p[SEEN, SEEN], self._x[SEEN]
 
     def _propagate(self, k: int) -> None:
-        dt, r, x = self._dt[k], self._r, self._x
-        turned, pushed = r @ self._columns[k] * dt, r * dt
+        dt, r, x = self._seconds[k], self._r, self._x
+        turned, pushed = self._turned[k], r * dt
         push = r @ (self._push[k] - x[BA] * dt)
         f = self._transition
         f[VEL, PHI] = skew(push)
         f[VEL, BA] = pushed
         f[PHI, BG] = -pushed
-        f[PHI, M] = turned
+        f[PHI, M] = r @ turned
         self._v += push
         self._v[2] -= self._walk.gravity * dt
-        more = (self._columns[k] @ x[M] - x[BG]) * dt
+        more = turned @ x[M] - x[BG] * dt
         self._r = r @ self._turn[k] @ (IDENTITY + skew(more))
         self._p = f @ self._p @ f.T
-        driven = np.arange(6)
-        self._p[driven, driven] += dt * self._added
+        self._p.reshape(-1)[: 6 * (STATES + 1) : STATES + 1] += dt * self._added  # P_ii of six
 
     def _stand(self, k: int) -> None:
         """Update with a sample of a stance: the pivot of the foot does not move."""
@@ -224,8 +227,7 @@ class _Pass:
         arm = r @ (self._pivot_axes @ (self._point[6:] + x[LEVER]))
         level_x, arm_x = skew(level), skew(arm)
         on_arm = arm_x @ LEVEL
-        h = np.zeros((3, STATES))
-        h[:, VEL] = IDENTITY
+        h = self._row
         h[:, PHI] = level_x @ arm_x - on_arm @ skew(turn)
         h[:, BG] = -on_arm @ r
         h[:, M] = on_arm @ r @ self._columns[k]
@@ -252,5 +254,5 @@ class _Pass:
         self._p = 0.5 * (p + p.T)
         change = gain @ innovation
         self._v -= change[VEL]
-        self._r = rotations(change[None, PHI])[0] @ self._r
+        self._r = exact_rotation(change[PHI]) @ self._r
         self._x[6:] += change[6:]

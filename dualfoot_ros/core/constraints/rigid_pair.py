@@ -94,7 +94,7 @@ class RigidPair(Method):
         share = 1.0 / len(sensors)
         rate = share * np.sum([gait.sample(s, epoch)[3:] + ahead[s] for s in sensors], axis=0)
         rotation = estimate.rotation(0)
-        moved = rotation @ np.cross(rate, self._arm)
+        moved = rotation @ (skew(rate) @ self._arm)
         velocity = estimate.velocity(1) - estimate.velocity(0) - moved
         rows = difference_rows(velocity_row, moved)
         add_bias(rows, share * rotation @ skew(self._arm), sensors)

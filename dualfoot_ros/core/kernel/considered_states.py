@@ -63,6 +63,16 @@ def put_known(w, c, m, value):
     w[S_CC + ROW_CC * c + X_CC + m] = value
 
 
+def clear_beyond(w, row, size):
+    """Write zeros behind the first ``size`` columns of the ``row`` of P_cc.
+
+    Nothing reads them, but a row is divided as a whole: what another update has left there would
+    grow from one update to the next, until it overflows.
+    """
+    for c in range(size, X_CC):
+        w[row + c] = 0.0
+
+
 def consider_all(w):
     """Prepare heading and gyro bias of both feet, without P_.c: `knowing_all` reads it from P."""
     for k in range(CONSIDERED_FOOT):
@@ -74,6 +84,8 @@ def consider_all(w):
             w[left + CONSIDERED_FOOT + c] = w[PLR + row + c]
             w[right + c] = w[PLR + ROW * (KNOWN + c) + KNOWN + k]
             w[right + CONSIDERED_FOOT + c] = w[PRR + row + c]
+        clear_beyond(w, left, 2 * CONSIDERED_FOOT)
+        clear_beyond(w, right, 2 * CONSIDERED_FOOT)
         for m in range(ROWS_MOST):
             put_known(w, k, m, w[S_G + JOINT * m + KNOWN + k])
             put_known(w, CONSIDERED_FOOT + k, m, w[S_G + JOINT * m + SIDE + KNOWN + k])
@@ -87,6 +99,7 @@ def consider_foot(w, block, side):
     for k in range(CONSIDERED_FOOT):
         for c in range(CONSIDERED_FOOT):
             w[S_CC + ROW_CC * k + c] = w[block + ROW * (KNOWN + k) + KNOWN + c]
+        clear_beyond(w, S_CC + ROW_CC * k, CONSIDERED_FOOT)
         for m in range(ROWS_MOST):
             put_known(w, k, m, w[S_G + JOINT * m + side + KNOWN + k])
 

@@ -74,9 +74,9 @@ def test_an_exact_barometer_gives_the_climb_back(worn, limit):
 
 
 def test_noisy_barometers_take_the_drift_out_of_the_height():
-    """Over ten walks on stairs of a minute: (RMS, with against without)."""
+    """Over six walks on stairs of a minute: (RMS, with against without)."""
     with_it, without = [], []
-    for seed in range(10):
+    for seed in range(6):
         made = climb(BarometerConfig(), seed)
         with_it.append(height_errors(made, tracked(made, tracker(**DRIFTING))))
         off = tracker(**DRIFTING, **{"aids.barometer": False})

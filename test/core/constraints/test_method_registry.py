@@ -13,6 +13,8 @@ import pytest
 from dualfoot_ros.core import ConfigError, TrackerConfig
 from dualfoot_ros.core.constraints import ENTRY_POINTS, METHODS, Method
 from dualfoot_ros.core.constraints.method_registry import checked
+from dualfoot_ros.recording import Recording, write_bag
+from dualfoot_ros.simulation import WalkConfig, simulate
 
 ROOT = Path(__file__).resolve().parents[3]
 HEIGHT = '''"""``same_height``: both feet are as high at the end of a stance."""
@@ -57,9 +59,9 @@ from dualfoot_ros.core import DualFootTracker, EventKind, TrackerConfig, all_spe
 from dualfoot_ros.evaluation.batch.monte_carlo import constraint_dimensions
 from dualfoot_ros.simulation import WalkConfig, simulate
 config = TrackerConfig.from_mapping({"method": "same_height", "same_height.height_std": 0.2})
-made = simulate(WalkConfig.from_mapping({"route": "L", "standing": 4.0}), seed=1)
+made = simulate(WalkConfig.from_mapping({"route": "L", "standing": 4.0, "rate": 60.0}), seed=1)
 result = DualFootTracker(config, engine="interpreted" if "numba" not in sys.modules else "auto")
-track = result.run(made.left[:1400], made.right[:1400])
+track = result.run(made.left[:840], made.right[:840])
 events = track.of_kind(EventKind.CONSTRAINT)
 print(json.dumps({
     "specs": [s.name for s in all_specs() if s.name.startswith("same_height")],
@@ -110,8 +112,8 @@ def test_a_method_of_another_package_runs_with_its_parameters_and_its_own_dimens
 
 def test_the_command_line_knows_a_method_of_another_package(brought, tmp_path):
     bag = tmp_path / "walk"
-    simulated = ["simulate", "-o", str(bag), "--route", "L", "--standing", "4", "--seed", "1"]
-    assert run(brought, "-m", "dualfoot_ros", *simulated).returncode == 0
+    made = simulate(WalkConfig(route="L", standing=4.0, rate=60.0), seed=1)
+    write_bag(bag, Recording(made.left, made.right))
     command = ["evaluate", str(bag), "--method", "same_height", "--json"]
     done = run(brought, "-m", "dualfoot_ros", *command)
     assert done.returncode == 0, done.stderr

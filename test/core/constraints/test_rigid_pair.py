@@ -27,7 +27,7 @@ from ..kernel.states import nominal, put_error, random_workspace, set_covariance
 from .joint import JointEstimate, MadeUpGait, error_taken, interpreted, states
 
 APART = 0.014
-QUIET = {"route": "rectangle", "rate": 100.0, "standing": 4.0, "final_standing": 1.0}
+QUIET = {"route": "rectangle", "rate": 60.0, "standing": 4.0, "final_standing": 1.0}
 NO_TREMOR = {**QUIET, "gait": {"tremor": 0.0, "sway": 0.0}}
 KNOWN_ATTITUDE = {
     "noise": {"gyro": 0.0, "gyro_bias": 0.0, "accelerometer_bias": 0.0, "bias_time": 1e9},

@@ -117,7 +117,7 @@ spans = st.lists(
 
 
 @given(spans, st.sampled_from(("zupt", "idc", "spacing_vector")))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=15, deadline=None)
 def test_live_equals_batch_to_the_bit_with_any_pattern_of_missing_samples(away, method):
     pairs = walk(18.0)
     for foot, first_s, seconds in away:

@@ -64,7 +64,7 @@ def test_nothing_comes_out_of_a_link_without_events():
     assert events.interval_s is None
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(seed=st.integers(0, 10_000), slip=st.floats(0.0, 0.0006))
 def test_times_between_arrivals_that_are_multiples_need_be_no_events(seed, slip):
     """A host that begins its period anew with every arrival: where the lattice is, slips."""

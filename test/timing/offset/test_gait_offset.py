@@ -15,7 +15,7 @@ OFFSET_S = 12.5
 
 @cache
 def way(seed, route):
-    return walk(WalkConfig(route=route), seed)
+    return walk(WalkConfig(route=route, rate=60.0), seed)
 
 
 def walked(seed, drift=0.0, route="L"):

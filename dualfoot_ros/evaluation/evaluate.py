@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,6 @@ import numpy as np
 from ..core import FEET, EvaluationError, EventKind, FootTrajectory, IntArray, Trajectory
 from ..inspection import Finding
 from ..recording import Reference
-from ..settings import PersonConfig
 from .frames.association import Footfalls
 from .frames.gauge import (
     Markers,
@@ -31,11 +31,10 @@ from .metrics.foot_passings import FeetReport, feet_report
 from .metrics.heading_split import HeadingErrors, heading_errors
 from .metrics.markers import MarkerErrors, marker_errors
 from .metrics.nees import Consistency, consistency
-from .metrics.position_trust import trust_report
+from .metrics.position_trust import TrustReport, trust_report
 from .notes import field_notes, marker_notes, pressure_notes, refusal_notes
+from .person_track import PersonTrack, person_track
 from .plain import plain
-
-TRUST_LIMIT_M = PersonConfig().trust_limit
 
 
 @dataclass(frozen=True)
@@ -87,6 +86,11 @@ class Evaluation:
     findings: tuple[Finding, ...] = ()
     run_s: float | None = None
 
+    @cached_property
+    def person(self) -> PersonTrack:
+        """The person between the aligned feet; calculated once."""
+        return person_track(self.trajectory)
+
     @property
     def feet_tracks(self) -> dict[str, FootTrajectory]:
         """Return both aligned feet by name."""
@@ -116,7 +120,7 @@ class Evaluation:
                 "closed_loop": self.closed_loop,
                 "closure": self.closure and asdict(self.closure),
                 "feet": asdict(self.feet),
-                "trust": asdict(trust_report(self.tracked, TRUST_LIMIT_M)),
+                "trust": asdict(self._trust()),
                 "gait": self._gait(),
                 "events": event_counts(track),
                 "counters": dict(track.counters),
@@ -124,6 +128,11 @@ class Evaluation:
             }
         )
         return figures
+
+    def _trust(self) -> TrustReport:
+        from ..settings import PersonConfig  # here: it brings the drivers
+
+        return trust_report(self.tracked, PersonConfig().trust_limit)
 
     def _gait(self) -> dict[str, Any]:
         return {

@@ -24,7 +24,7 @@ $(VENV)/.installed: setup.py scripts/make_venv
 	@touch $@
 
 $(VENV)/.kernel: $(VENV)/.installed $(wildcard dualfoot_ros/core/kernel/*.py dualfoot_ros/core/compiler/*.py)
-	@echo "compiling the kernel (once, up to half a minute)"
+	@echo "compiling the kernel (once; some seconds, half a minute without a C compiler)"
 	@$(BIN)/python -m dualfoot_ros.core.compiler
 	@touch $@
 

@@ -18,6 +18,7 @@ from .session import Session
 
 STRETCH = 1 << 12  # samples that are run at once: their rows stay in the cache of the processor
 STANDING = 1 << 7  # the same of a stand, whose windows are looked at before it is known to end
+AHEAD = 1 << 8  # samples that are looked up at once, to be run one by one
 
 
 class BatchRun:
@@ -33,6 +34,10 @@ class BatchRun:
         self._stops: IntArray | None = None
         self._taken: list[int] = []
         self._single: dict[int, FloatArray] = {}  # rows that came one by one, by their places
+        self._ahead, self._ahead_from = (
+            np.empty((0, 12)),
+            0,
+        )  # values of pairs that come one by one
         self.events: list[Event] = []
 
     def run(self, stream: PairStream) -> None:
@@ -71,6 +76,13 @@ class BatchRun:
         left, right = self._series
         return stack_pairs(left[span], right[span])
 
+    def _one(self, k: int) -> FloatArray:
+        """Return the values (12,) of pair ``k``; one pair after the other is asked for."""
+        if not 0 <= k - self._ahead_from < len(self._ahead):
+            self._ahead, self._ahead_from = self._values(slice(k, k + AHEAD)), k
+        one: FloatArray = self._ahead[k - self._ahead_from]
+        return one
+
     def _run_stretch(self, stream: PairStream, session: Session, start: int, stop: int) -> None:
         span, rows = slice(start, stop), self._rows[: stop - start]
         samples = self._stamps[span], self._dts[span], self._values(span)
@@ -85,8 +97,7 @@ class BatchRun:
         self._kept[span] = stream.went_on(rows, int(self._stamps[stop - 1]))
 
     def _add(self, stream: PairStream, k: int) -> None:
-        values = self._values(slice(k, k + 1))[0]
-        update = stream.add(ImuPair(int(self._stamps[k]), values))
+        update = stream.add(ImuPair(int(self._stamps[k]), self._one(k)))
         if update.refused is None:
             self._taken.append(k)
         if any(event.kind is EventKind.RESET for event in update.announced):

@@ -1,4 +1,4 @@
-"""The compiled form of the kernel: made by numba, kept in a cache, got ready in the background.
+"""The compiled form of the kernel: translated to C, kept in a cache, got ready in the background.
 
 The one part of the core that touches files, the environment, threads and processes.
 """

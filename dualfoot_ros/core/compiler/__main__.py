@@ -14,7 +14,10 @@ def main() -> int:
     try:
         compiled()
     except ImportError:
-        sys.stdout.write("numba is not installed: the kernel runs interpreted\n")
+        sys.stdout.write(
+            "neither a C compiler (cc) nor numba is here: the kernel runs interpreted, some "
+            "thirty times slower; install gcc\n"
+        )
         return 0
     sys.stdout.write(f"kernel compiled, cached in {cache_directory()}\n")
     return 0

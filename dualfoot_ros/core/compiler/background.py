@@ -10,6 +10,7 @@ import threading
 from ..kernel import Engine
 from .cache import READY, usable_cache
 from .compiled import compiled
+from .shared_library import can_compile
 
 COMMAND = (sys.executable, "-m", __package__)
 
@@ -17,7 +18,7 @@ COMMAND = (sys.executable, "-m", __package__)
 class BackgroundEngine:
     """Gets the compiled kernel ready.
 
-    A cold cache is filled by another process, so that the compiler never competes with the live
+    A cold cache is filled by another process, so that the translation never competes with the live
     path for the interpreter.  Loading from a warm cache takes some ms, or half a second where
     numba has to do it.
     """
@@ -33,16 +34,15 @@ class BackgroundEngine:
         return self._ready
 
     def wait(self) -> Engine | None:
-        """Wait until the compiled kernel is ready; None when there is none (no numba)."""
+        """Wait until the compiled kernel is ready; None when nothing here can make it."""
         self._thread.join()
         return self._ready
 
     def _prepare(self) -> None:
         try:
-            if importlib.util.find_spec("numba") is None:
-                return
             directory = usable_cache()
-            if directory is not None and not (directory / READY).exists():
+            cold = directory is not None and not (directory / READY).exists()
+            if cold and (can_compile() or importlib.util.find_spec("numba") is not None):
                 # A session of its own: Ctrl-C ends the caller only, and the cache is filled.
                 subprocess.run(
                     COMMAND, check=False, stdout=subprocess.DEVNULL, start_new_session=True

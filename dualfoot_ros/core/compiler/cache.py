@@ -1,7 +1,6 @@
 """Where the compiled kernel is kept: a directory named by all that the machine code depends on.
 
-numba looks at the file of the outermost function only and would keep stale code when an inner
-module changes, so the directory is keyed by the loaded code of the whole kernel.
+The directory is keyed by the loaded code of the whole kernel and by what translates it.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ def cache_directory() -> Path:
 
     ``DUALFOOT_CACHE_DIR`` overrides the user's cache directory.
     """
-    text = f"{_loaded_code()} {sys.version} {_numba_version()}"
+    text = f"{_loaded_code()} {_translation()} {sys.version} {_numba_version()}"
     key = hashlib.sha256(text.encode()).hexdigest()[:16]
     home = os.environ.get("XDG_CACHE_HOME") or str(Path("~/.cache").expanduser())
     base = Path(os.environ.get("DUALFOOT_CACHE_DIR") or Path(home) / "dualfoot_ros")
@@ -55,6 +54,11 @@ def _loaded_code() -> str:
         if isinstance(value, int | float)
     )
     return repr((codes, numbers))
+
+
+def _translation() -> list[bytes]:
+    """Return what the translation to C depends on: the files that do it."""
+    return [file.read_bytes() for file in sorted(Path(__file__).parent.glob("*.py"))]
 
 
 def _numba_version() -> str:

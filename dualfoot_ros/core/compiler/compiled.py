@@ -1,104 +1,108 @@
-"""The kernel compiled by numba, from the same function objects that run interpreted."""
+"""The compiled kernel, from the same functions that run interpreted.
+
+They are translated to C, which takes a tenth of the time that numba takes to compile them.  Where
+there is no C compiler, or where what it made has other bits, numba does it.
+"""
 
 from __future__ import annotations
 
 import types
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from ..kernel import ENTRIES, MODULES, Engine, kernel_functions
-from .adapters import Entry
+from .c_library import library_source
 from .cache import READY, usable_cache
+from .entries import ENTRY_KINDS, Kind
 from .numba_cache import keep_in
-from .shared_library import can_link, library_path, load_library, write_library
+from .same_bits import same_bits
+from .shared_library import Functions, can_compile, library_path, load_library, write_library
 
 
 @cache
 def compiled() -> Engine:
-    """Return the kernel compiled by numba, from the cache where it is warm.
+    """Return the compiled kernel, from the cache where it is warm.
 
     Raises
     ------
     ImportError
-        When it is not in the cache and numba is not installed.
+        When there is neither a C compiler nor numba, and the cache is cold.
     """
     directory = usable_cache()
-    engine = None if directory is None else _from_library(directory)
-    if engine is None:
-        engine = _from_numba(directory)
+    functions = _library_for_once() if directory is None else _from_library(directory)
+    if functions is None:
+        functions = _from_numba(directory)
     if directory is not None:
         (directory / READY).touch()
-    return engine
+    return Engine("compiled", **functions)
 
 
-def _from_library(directory: Path) -> Engine | None:
-    """Return the kernel as a library in ``directory``, made where it is not there.
+def _library_for_once() -> Functions | None:
+    """Return the entries of a library that is not kept; once it is loaded no file is needed."""
+    try:
+        with TemporaryDirectory() as folder:
+            return _from_library(Path(folder))
+    except OSError:
+        return None
 
-    None where it cannot be linked, which an empty file in its place tells the next process.
+
+def _from_library(directory: Path) -> Functions | None:
+    """Return the entries of the library in ``directory``, made where it is not there.
+
+    None where it cannot be made, which an empty file in its place tells the next process.
     """
     path = library_path(directory)
     try:
-        if not path.exists() and can_link() and not write_library(path, _machine_code()):
-            path.touch()
+        if not path.exists() and can_compile():
+            return _new_library(path)
     except OSError:  # a full disk, a folder that has gone
         return None
-    functions = load_library(path)
-    return None if functions is None else Engine("compiled", **functions)
+    return load_library(path, ENTRY_KINDS)
 
 
-def _machine_code() -> dict[Entry, Any]:
-    """Return what numba makes of each entry, without the means to call it from Python."""
-    built = _dispatchers(None, no_cpython_wrapper=True, no_cfunc_wrapper=True)
-    code = {}
-    for name, signature in _signatures().items():
-        built[name].compile(signature)
-        code[_entry(name, signature)] = built[name].overloads[signature.args]
-    return code
+def _new_library(path: Path) -> Functions | None:
+    """Make the library and look whether its bits are those of the kernel in Python."""
+    made = write_library(path, library_source(kernel_functions(), ENTRY_KINDS))
+    functions = load_library(path, ENTRY_KINDS) if made else None
+    if functions is None or not same_bits(functions):
+        path.unlink(missing_ok=True)  # and not written over: it is in the memory of this process
+        path.touch()
+        return None
+    return functions
 
 
-def _entry(name: str, signature: Any) -> Entry:
-    """Return the description of an entry with the types of numba."""
-    from numba import boolean, float64, int64, types
-
-    letters = {int64: "i", boolean: "b", float64: "d", types.none: "n"}
-    arguments = (letters.get(each) or "?vm"[each.ndim] for each in signature.args)
-    return Entry(name, letters[signature.return_type], "".join(arguments))
-
-
-def _from_numba(directory: Path | None) -> Engine:
-    """Return the kernel as numba loads it."""
+def _from_numba(directory: Path | None) -> Functions:
+    """Return the entries as numba compiles them, or loads them from ``directory``."""
     built = _dispatchers(directory)
     for name, signature in _signatures().items():
         built[name].compile(signature)
         built[name].disable_compile()
-    return Engine("compiled", **{name: built[name] for name in ENTRIES})
+    return {name: built[name] for name in ENTRIES}
 
 
 def _signatures() -> dict[str, Any]:
     """Return the types of the arguments of every entry."""
-    from numba import boolean, float64, int64, void
+    from numba import float64, int64, void
 
-    w, n = float64[::1], int64[::1]
-    rows = float64[:, ::1]
+    kinds = {
+        Kind.INTEGER: int64,
+        Kind.REAL: float64,
+        Kind.INTEGERS: int64[::1],
+        Kind.REALS: float64[::1],
+        Kind.ROWS: float64[:, ::1],
+    }
     return {
-        "advance": int64(w, n, w, rows, int64, int64, rows),
-        "rerun": void(w, n, int64, int64),
-        "restore": void(w, n, int64),
-        "set_flags": void(n, int64, int64, int64, boolean),
-        "emit": void(w, n, rows, int64),
-        "collect": void(w, int64),
-        "correct": float64(w, int64),
-        "correct_considering": float64(w, int64, int64),
-        "turn": void(w, int64, int64, float64, float64, w, w),
-        "closest": void(w, float64, float64),
+        name: (kinds[entry.result] if entry.result else void)(*map(kinds.get, entry.parameters))
+        for name, entry in ENTRY_KINDS.items()
     }
 
 
-def _dispatchers(directory: Path | None, **options: bool) -> dict[str, Any]:
+def _dispatchers(directory: Path | None) -> dict[str, Any]:
     """Copy every kernel function with the compiled ones in its globals, and wrap it.
 
-    ``options`` are those of numba; ``directory`` is where it keeps the entries.
+    ``directory`` is where numba keeps the entries.
     """
     from numba import njit
 
@@ -108,7 +112,7 @@ def _dispatchers(directory: Path | None, **options: bool) -> dict[str, Any]:
         namespace = namespaces[function.__module__]
         copy = types.FunctionType(function.__code__, namespace, name, function.__defaults__)
         copy.__module__, copy.__qualname__ = function.__module__, function.__qualname__
-        built[name] = njit(**options)(copy)
+        built[name] = njit(copy)
         if name in ENTRIES and directory is not None:
             keep_in(built[name], directory)
     for namespace in namespaces.values():

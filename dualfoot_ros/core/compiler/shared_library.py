@@ -1,8 +1,4 @@
-"""The compiled kernel as a shared library: loaded without numba, which takes 130 MB and 0.6 s.
-
-LLVM, which numba brings, writes the machine code that it would run itself into an object file, and
-the C compiler of the system (``cc``) links it.  Where there is none, numba loads the kernel.
-"""
+"""The kernel as a shared library: the C compiler of the system (``cc``) makes it, 5 ms load it."""
 
 from __future__ import annotations
 
@@ -18,19 +14,18 @@ from typing import Any
 
 import numpy as np
 
-from .adapters import DATA, DIMENSIONS, PREFIX, TABLE, Entry, adapter_text
+from .c_library import DATA, EXTENTS, PREFIX
+from .entries import Entry, Kind
 
-LINKER = "cc"
+COMPILER = "cc"
 PROCESSOR = Path("/proc/cpuinfo")  # of Linux alone
-OPTIONS = ("-shared", "-nostartfiles", "-Wl,-z,defs")
-RESULTS: dict[str, Any] = {"i": ctypes.c_int64, "d": ctypes.c_double, "n": ctypes.c_void_p}
-ARGUMENTS: dict[str, Any] = {
-    "v": ctypes.py_object,
-    "m": ctypes.py_object,
-    "i": ctypes.c_int64,
-    "b": ctypes.c_bool,
-    "d": ctypes.c_double,
-}
+STANDARD = ("-ffp-contract=off", "-fno-math-errno", "-shared", "-fPIC")
+FAST = ("-O3", "-march=native")
+NO_FUSING = ("-mno-fma", "-mno-fma4", "-mno-avx512f")
+"""gcc 12 takes a product and a sum as one operation, of another last bit, whatever it was told."""
+
+ARGUMENTS: dict[Kind, Any] = {Kind.INTEGER: ctypes.c_int64, Kind.REAL: ctypes.c_double}
+Functions = dict[str, Callable[..., Any]]
 
 
 def library_path(directory: Path) -> Path:
@@ -47,82 +42,57 @@ def _processor() -> str:
     return f"{platform.machine()} {sorted(known)}"
 
 
-def can_link() -> bool:
+def can_compile() -> bool:
     """Return whether a library can be made here: on Linux, with a C compiler."""
-    return PROCESSOR.exists() and bool(shutil.which(LINKER))
+    return PROCESSOR.exists() and bool(shutil.which(COMPILER))
 
 
-def write_library(path: Path, entries: Mapping[Entry, Any]) -> bool:
-    """Write the library of ``entries`` with what numba has compiled of each (a CompileResult).
-
-    Returns whether it could be linked.
-    """
-    try:
-        machine_code = _object_code(entries)
-    except (AttributeError, RuntimeError):  # another numba, or another LLVM
-        return False
+def write_library(path: Path, source: str) -> bool:
+    """Write the library of a ``source`` in C; return whether the compiler could make it."""
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
-        code, made = Path(folder) / "kernel.o", Path(folder) / path.name
-        code.write_bytes(machine_code)
-        command = [LINKER, *OPTIONS, "-o", str(made), str(code), "-lm", "-lc"]
-        done = subprocess.run(command, check=False, capture_output=True)
-        if done.returncode == 0:
-            made.replace(path)
-    return done.returncode == 0
+        code, made = Path(folder) / "kernel.c", Path(folder) / path.name
+        code.write_text(source, encoding="ascii")
+        for options in _options():
+            command = [COMPILER, *options, *STANDARD, "-o", str(made), str(code), "-lm"]
+            if subprocess.run(command, check=False, capture_output=True).returncode == 0:
+                made.replace(path)
+                return True
+    return False
 
 
-def _object_code(entries: Mapping[Entry, Any]) -> bytes:
-    """Return the machine code as LLVM writes it for a library: at any address."""
-    from numba.core.codegen import ll as binding  # its llvmlite
-
-    symbols = {entry: done.fndesc.llvm_func_name for entry, done in entries.items()}
-    text = adapter_text(symbols, binding.llvm_version_info[0])
-    module = binding.parse_assembly(text)
-    for done in entries.values():
-        # The module with all that the entry calls, optimized: what numba runs.
-        bitcode = done.library._final_module.as_bitcode()  # noqa: SLF001  (numba has no other way)
-        module.link_in(binding.parse_bitcode(bitcode))
-        triple, processor, features = done.library.codegen.magic_tuple()
-    target = binding.Target.from_triple(triple).create_target_machine(
-        cpu=processor, features=features, opt=3, reloc="pic", codemodel="default"
-    )
-    code: bytes = target.emit_object(module)
-    return code
+def _options() -> tuple[tuple[str, ...], ...]:
+    """Return options of the compiler, the best first; not every one knows all of them."""
+    if platform.machine() in {"x86_64", "AMD64"}:
+        return (*FAST, *NO_FUSING), ("-O2",)
+    return FAST, ("-O2",)
 
 
-def load_library(path: Path) -> dict[str, Callable[..., Any]] | None:
-    """Return the entries in a library by name; None where it cannot be used."""
+def load_library(path: Path, entries: Mapping[str, Entry]) -> Functions | None:
+    """Return the ``entries`` in a library by name; None where it cannot be used.
+
+    They take what stands in ``entries`` and do not look whether an array is one.
+    """
     if not path.exists() or not _knows_arrays():
         return None
     try:
-        library = ctypes.PyDLL(str(path))  # which keeps the lock of the interpreter, as numba does
-        table = ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, TABLE)))
-    except (OSError, ValueError):  # a folder without the right to execute, a damaged file
+        library = ctypes.PyDLL(str(path))  # which keeps the lock of the interpreter
+        return {name: _function(library, name, entry) for name, entry in entries.items()}
+    except (OSError, AttributeError):  # no right to execute, a damaged file
         return None
-    entries = [Entry.read(line) for line in table.decode().splitlines()]
-    return {e.name: _callable(getattr(library, PREFIX + e.name), e) for e in entries}
 
 
 def _knows_arrays() -> bool:
     """Return whether an array of numpy has its address and extents where they are looked for."""
     array = np.zeros((3, 5))
     found = ctypes.c_void_p.from_address(id(array) + DATA).value
-    extents = ctypes.c_void_p.from_address(id(array) + DIMENSIONS).value
+    extents = ctypes.c_void_p.from_address(id(array) + EXTENTS).value
     if found != array.ctypes.data or extents is None:
         return False
     return tuple((ctypes.c_int64 * 2).from_address(extents)) == array.shape
 
 
-def _callable(function: Any, entry: Entry) -> Callable[..., Any]:
-    """Return an entry as a function of Python, which raises as the kernel in Python does."""
-    kind = RESULTS[entry.result]
-    function.argtypes = [ctypes.c_void_p, *(ARGUMENTS[each] for each in entry.arguments)]
-    nothing = entry.result == "n"
-
-    def call(*arguments: Any) -> Any:
-        result = kind()
-        if function(ctypes.byref(result), *arguments):
-            raise ZeroDivisionError(f"division by zero in '{entry.name}' of the kernel")
-        return None if nothing else result.value
-
-    return call
+def _function(library: ctypes.PyDLL, name: str, entry: Entry) -> Callable[..., Any]:
+    function = library[PREFIX + name]
+    function.argtypes = [ARGUMENTS.get(kind, ctypes.py_object) for kind in entry.parameters]
+    function.restype = ARGUMENTS[entry.result] if entry.result else None
+    return function

@@ -16,24 +16,17 @@ from processes import PATIENCE_S
 
 from dualfoot_ros.core import DualFootTracker
 from dualfoot_ros.core.compiler import BackgroundEngine, background, cache_directory
-from dualfoot_ros.core.compiler.shared_library import can_link
+from dualfoot_ros.core.compiler.entries import ENTRY_KINDS
+from dualfoot_ros.core.compiler.numba_cache import keep_in
+from dualfoot_ros.core.compiler.same_bits import same_bits
+from dualfoot_ros.core.compiler.shared_library import can_compile
 from dualfoot_ros.core.kernel import ENTRIES, interpreted, output_row, turn
-from dualfoot_ros.core.kernel import layout as lay
 
 from ..following import live
 from ..harness import walk
 
 ROOT = Path(__file__).resolve().parents[3]
 compiled_kernel = importlib.import_module("dualfoot_ros.core.compiler.compiled")
-
-WATCH = """
-import types, numba
-class Watched(types.ModuleType):
-    def __setattr__(self, name, value):
-        assert name != "CACHE_DIR", "the setting of numba was changed"
-        super().__setattr__(name, value)
-numba.config.__class__ = Watched
-"""
 
 TRACK = """
 import hashlib, json, sys
@@ -83,23 +76,33 @@ def tracked(recording, before: str, cache: Path) -> list[str]:
     return json.loads(done.stdout)
 
 
+NOTHING = 'sys.modules["numba"] = None'  # and the cache is empty, and "cc" is not found
+
+
 def test_a_live_start_with_a_cold_cache_runs_interpreted_then_compiled_with_the_same_bits(
     recording, tmp_path
 ):
-    """... and leaves the settings of numba alone at every moment."""
-    pytest.importorskip("numba")
-    at_once, _, last, digest = tracked(recording, WATCH, tmp_path)
+    at_once, _, last, digest = tracked(recording, "", tmp_path)
     assert (at_once, last) == ("interpreted", "compiled")
     assert digest == recording[1]
     (directory,) = tmp_path.iterdir()
     assert (directory / "ready").exists()
-    kept = "*.so" if can_link() else "*.nbi"
-    assert list(directory.rglob(kept))
+    assert list(directory.rglob("*.so" if can_compile() else "*.nbi"))
 
 
-def test_without_numba_everything_runs_interpreted_with_the_same_bits(recording, tmp_path):
-    engines_and_digest = tracked(recording, 'sys.modules["numba"] = None', tmp_path)
+def test_without_numba_and_compiler_everything_runs_interpreted_with_the_same_bits(
+    recording, tmp_path
+):
+    nowhere = 'import os; os.environ["PATH"] = ""\n'
+    engines_and_digest = tracked(recording, nowhere + NOTHING, tmp_path)
     assert engines_and_digest == ["interpreted", "interpreted", "interpreted", recording[1]]
+
+
+def test_a_compiler_is_enough(recording, tmp_path):
+    if not can_compile():
+        pytest.skip("needs a C compiler (cc), on Linux")
+    at_once, _, last, digest = tracked(recording, NOTHING, tmp_path)
+    assert (at_once, last, digest) == ("interpreted", "compiled", recording[1])
 
 
 @pytest.fixture
@@ -111,21 +114,30 @@ def nowhere(tmp_path, monkeypatch):
 
 
 def test_where_no_cache_can_be_written_the_kernel_is_compiled_all_the_same(nowhere, monkeypatch):
-    """The small entries stand for all: what is compiled where is one for all of them."""
+    if not can_compile():
+        pytest.skip("needs a C compiler (cc), on Linux")
+    monkeypatch.setattr(compiled_kernel, "_from_numba", lambda _folder: pytest.fail("numba"))
+    assert compiled_kernel.compiled.__wrapped__().name == "compiled"
+
+
+@pytest.mark.parametrize("kept", [False, True])
+def test_numba_has_the_bits_where_there_is_no_compiler(monkeypatch, tmp_path, kept):
+    """An entry with updates and turns stands for all: the functions are the same for each."""
     pytest.importorskip("numba")
-    wanted = compiled_kernel._signatures()
-    few = {name: wanted[name] for name in ("restore", "set_flags")}
-    monkeypatch.setattr(compiled_kernel, "_signatures", lambda: few)
-    engine = compiled_kernel.compiled.__wrapped__()
-    assert engine.name == "compiled"
-    assert all(getattr(engine, name).signatures == [few[name].args] for name in few)
-    flags = []
-    for kernel in (engine, interpreted()):
-        n = np.zeros(lay.integer_size(16), dtype=np.int64)
-        n[lay.N_RING] = 16
-        kernel.set_flags(n, 1, 3, 9, True)
-        flags.append(n[lay.N_FLAGS :].tolist())
-    assert sum(flags[0]) == 2 * 7 and flags[0] == flags[1]
+    few = ("set_flags", "correct", "turn")
+    monkeypatch.setattr(compiled_kernel, "ENTRY_KINDS", {name: ENTRY_KINDS[name] for name in few})
+    monkeypatch.setattr(compiled_kernel, "ENTRIES", few)
+    made = compiled_kernel._from_numba(tmp_path if kept else None)
+    assert bool(list(tmp_path.rglob("*.nbi"))) == kept
+    assert same_bits({**vars(interpreted()), **made})
+
+
+def test_numba_keeps_its_own_settings():
+    """A change of its folder would send what others compile meanwhile to ours."""
+    numba = pytest.importorskip("numba")
+    before = numba.config.CACHE_DIR
+    keep_in(numba.njit(_renamed), Path("nowhere"))
+    assert before == numba.config.CACHE_DIR
 
 
 def test_where_no_cache_can_be_written_no_other_process_is_asked_to_fill_it(nowhere, monkeypatch):

@@ -1,4 +1,4 @@
-"""The kernel as a library has the bits of the kernel in Python, and is not needed anywhere."""
+"""The kernel as a library: made, loaded, refused where it is no good, and not needed anywhere."""
 
 import importlib
 import shutil
@@ -9,95 +9,56 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core.compiler import shared_library
-from dualfoot_ros.core.compiler.adapters import Entry
+from dualfoot_ros.core.compiler.c_library import library_source
+from dualfoot_ros.core.compiler.entries import ENTRY_KINDS
 from dualfoot_ros.core.compiler.shared_library import library_path, load_library, write_library
-from dualfoot_ros.core.kernel import ENTRIES, interpreted
+from dualfoot_ros.core.kernel import ENTRIES, interpreted, kernel_functions
 from dualfoot_ros.core.kernel import layout as lay
 
 compiled_kernel = importlib.import_module("dualfoot_ros.core.compiler.compiled")
-RING = 16
-FEW = ("restore", "set_flags", "emit", "collect", "correct", "turn")  # all kinds of arguments
+FEW = {name: ENTRY_KINDS[name] for name in ("restore", "set_flags")}
 
 pytestmark = pytest.mark.skipif(
-    importlib.util.find_spec("numba") is None or not shared_library.can_link(),
-    reason="needs numba and a C compiler (cc), on Linux",
+    not shared_library.can_compile(), reason="needs a C compiler (cc), on Linux"
 )
 
 
 @pytest.fixture(scope="module")
-def code():
-    """Return what numba makes of some entries."""
-    few = {name: kinds for name, kinds in compiled_kernel._signatures().items() if name in FEW}
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(compiled_kernel, "_signatures", lambda: few)
-        return compiled_kernel._machine_code()
+def source():
+    """Return some entries in C."""
+    return library_source(kernel_functions(), FEW)
 
 
 @pytest.fixture(scope="module")
-def file(code, tmp_path_factory):
+def file(source, tmp_path_factory):
     """Return the library of these entries."""
     path = library_path(tmp_path_factory.mktemp("library"))
-    assert write_library(path, code)
+    assert write_library(path, source)
     assert [each.name for each in path.parent.iterdir()] == [path.name]
     return path
 
 
 @pytest.fixture
-def space():
-    """Return the two arrays of the kernel, with numbers that a filter could have."""
-    rng = np.random.default_rng(5)
-    n = np.zeros(lay.integer_size(RING), dtype=np.int64)
-    n[lay.N_RING], n[lay.N_EPOCH] = RING, 5
-    w = rng.normal(size=lay.RINGS + RING * (lay.SAMPLE + lay.STATE))
-    for at in range(3):
-        w[lay.S_S + 4 * at] += 10.0
-    return w, n
+def few_entries(monkeypatch):
+    """Let these entries be all, and none of them be compared."""
+    monkeypatch.setattr(compiled_kernel, "ENTRY_KINDS", FEW)
+    monkeypatch.setattr(compiled_kernel, "same_bits", lambda _functions: True)
 
 
-CALLS = {
-    "restore": lambda f, w, n: f(w, n, 3),
-    "set_flags": lambda f, w, n: f(n, 1, 3, 9, True),
-    "emit": lambda f, w, n: f(w, n, w[-2 * lay.OUT :].reshape(2, lay.OUT), 1),
-    "collect": lambda f, w, n: f(w, 2),
-    "correct": lambda f, w, n: f(w, 3),
-    "turn": lambda f, w, n: f(w, 0, 1, 0.6, 0.8, w[-3:], w[-6:-3]),
-}
-
-
-@pytest.mark.parametrize("name", FEW)
-def test_an_entry_of_the_library_has_the_bits_of_the_kernel_in_python(file, space, name):
-    found = []
-    for function in (load_library(file)[name], getattr(interpreted(), name)):
-        w, n = space[0].copy(), space[1].copy()
-        result = CALLS[name](function, w, n)
-        found.append((w.tobytes(), n.tobytes(), result))
-    assert found[0] == found[1]
-    assert found[0][:2] != (space[0].tobytes(), space[1].tobytes())
-
-
-def inverse(w, k):
-    return 1.0 / w[k]
-
-
-def test_a_division_by_zero_is_an_exception(tmp_path):
-    from numba import float64, int64, njit
-
-    compiled = njit(no_cpython_wrapper=True, no_cfunc_wrapper=True)(inverse)
-    kinds = float64(float64[::1], int64)
-    compiled.compile(kinds)
-    path, entry = library_path(tmp_path), compiled_kernel._entry("inverse", kinds)
-    assert write_library(path, {entry: compiled.overloads[kinds.args]})
-    function = load_library(path)["inverse"]
-    assert function(np.array([0.0, 4.0]), 1) == 0.25
-    with pytest.raises(ZeroDivisionError, match="inverse"):
-        function(np.array([0.0, 4.0]), 0)
+def test_every_entry_says_what_it_takes():
+    functions = kernel_functions()
+    assert list(ENTRY_KINDS) == list(ENTRIES)
+    for name, entry in ENTRY_KINDS.items():
+        assert functions[name].__code__.co_argcount == len(entry.parameters)
 
 
 def test_the_library_is_loaded_without_numba(file):
     script = (
         "import sys; from pathlib import Path\n"
+        "from dualfoot_ros.core.compiler.entries import ENTRY_KINDS\n"
         "from dualfoot_ros.core.compiler.shared_library import load_library\n"
-        f"found = load_library(Path({str(file)!r}))\n"
+        "few = {name: ENTRY_KINDS[name] for name in ('restore', 'set_flags')}\n"
+        f"found = load_library(Path({str(file)!r}), few)\n"
         "print(sorted(found), [m for m in ('numba', 'llvmlite') if m in sys.modules])"
     )
     done = subprocess.run(
@@ -111,12 +72,16 @@ def test_a_library_that_cannot_be_loaded_is_none(file, tmp_path, damage):
     path = tmp_path / file.name
     if damage is not None:
         path.write_bytes(damage)
-    assert load_library(path) is None
+    assert load_library(path, FEW) is None
+
+
+def test_a_library_that_lacks_an_entry_is_none(file):
+    assert load_library(file, ENTRY_KINDS) is None
 
 
 def test_arrays_of_another_kind_are_none_of_the_library(file, monkeypatch):
     monkeypatch.setattr(shared_library, "DATA", shared_library.DATA + 8)
-    assert load_library(file) is None
+    assert load_library(file, FEW) is None
 
 
 def test_another_processor_has_another_library(tmp_path, monkeypatch):
@@ -125,37 +90,59 @@ def test_another_processor_has_another_library(tmp_path, monkeypatch):
     assert library_path(tmp_path) != here
 
 
-def test_where_it_cannot_be_linked_numba_is_asked_and_the_next_time_at_once(
-    code, tmp_path, monkeypatch
+def test_a_compiler_that_does_not_know_the_best_options_gets_others(source, tmp_path, monkeypatch):
+    monkeypatch.setattr(shared_library, "FAST", ("--no-such-option",))
+    path = library_path(tmp_path)
+    assert write_library(path, source)
+    assert load_library(path, FEW)
+
+
+def test_where_nothing_can_be_made_numba_is_asked_and_the_next_time_at_once(
+    few_entries, tmp_path, monkeypatch
 ):
-    made = []
-    monkeypatch.setattr(compiled_kernel, "_machine_code", lambda: made.append(1) or code)
-    monkeypatch.setattr(shared_library, "LINKER", shutil.which("false"))
+    made, write = [], compiled_kernel.write_library
+    monkeypatch.setattr(compiled_kernel, "write_library", lambda *a: made.append(1) or write(*a))
+    monkeypatch.setattr(shared_library, "COMPILER", shutil.which("false"))
     assert compiled_kernel._from_library(tmp_path) is None
     assert compiled_kernel._from_library(tmp_path) is None
     assert made == [1]
 
 
-def test_without_a_compiler_nothing_is_tried(tmp_path, monkeypatch):
-    monkeypatch.setattr(compiled_kernel, "can_link", lambda: False)
-    monkeypatch.setattr(compiled_kernel, "_machine_code", lambda: pytest.fail("compiled"))
+def test_a_library_with_other_bits_is_not_used_now_or_later(few_entries, tmp_path, monkeypatch):
+    monkeypatch.setattr(compiled_kernel, "same_bits", lambda _functions: False)
+    assert compiled_kernel._from_library(tmp_path) is None
+    assert library_path(tmp_path).read_bytes() == b""
+
+
+@pytest.mark.parametrize("lacks", ["a compiler", "Linux"])
+def test_without_a_compiler_nothing_is_tried(tmp_path, monkeypatch, lacks):
+    if lacks == "Linux":
+        monkeypatch.setattr(shared_library, "PROCESSOR", tmp_path / "none")
+    else:
+        monkeypatch.setattr(shared_library, "COMPILER", "no-such-compiler")
+    monkeypatch.setattr(compiled_kernel, "library_source", lambda *_: pytest.fail("translated"))
     assert compiled_kernel._from_library(tmp_path) is None
     assert list(tmp_path.iterdir()) == []
 
 
-def test_on_another_system_than_linux_nothing_is_tried(tmp_path, monkeypatch):
-    monkeypatch.setattr(shared_library, "PROCESSOR", tmp_path / "none")
-    monkeypatch.setattr(compiled_kernel, "_machine_code", lambda: pytest.fail("compiled"))
-    assert compiled_kernel._from_library(tmp_path) is None
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_where_nothing_can_be_written_numba_is_asked(code, tmp_path, monkeypatch):
-    monkeypatch.setattr(compiled_kernel, "_machine_code", lambda: code)
+def test_where_nothing_can_be_written_nothing_is_raised(few_entries, tmp_path):
     assert compiled_kernel._from_library(tmp_path / "gone") is None
 
 
-def test_every_entry_has_a_description_that_is_read_as_it_is_written():
-    entries = [compiled_kernel._entry(*each) for each in compiled_kernel._signatures().items()]
-    assert {entry.name for entry in entries} == set(ENTRIES)
-    assert [Entry.read(str(entry)) for entry in entries] == entries
+def test_a_library_for_once_leaves_no_file(few_entries, tmp_path, monkeypatch):
+    monkeypatch.setattr(compiled_kernel, "TemporaryDirectory", _folder_in(tmp_path))
+    functions = compiled_kernel._library_for_once()
+    assert list(tmp_path.iterdir()) == []
+    flags = []
+    for set_flags in (functions["set_flags"], interpreted().set_flags):
+        n = np.zeros(lay.integer_size(16), dtype=np.int64)
+        n[lay.N_RING] = 16
+        set_flags(n, 1, 3, 9, True)
+        flags.append(n[lay.N_FLAGS :].tolist())
+    assert sum(flags[0]) == 2 * 7 and flags[0] == flags[1]
+
+
+def _folder_in(path):
+    from tempfile import TemporaryDirectory
+
+    return lambda: TemporaryDirectory(dir=path)

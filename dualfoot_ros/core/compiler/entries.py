@@ -1,0 +1,44 @@
+"""What the entries of the kernel take and return, for whatever compiles them."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import NamedTuple
+
+
+class Kind(StrEnum):
+    """What a name of the kernel stands for; the value is how C declares it."""
+
+    INTEGER = "int64_t"
+    REAL = "double"
+    INTEGERS = "int64_t *"
+    REALS = "double *"
+    ROWS = "Rows"  # an array of two dimensions
+
+    @property
+    def is_array(self) -> bool:
+        """Whether it stands for many numbers."""
+        return self in {Kind.INTEGERS, Kind.REALS, Kind.ROWS}
+
+
+class Entry(NamedTuple):
+    """The kinds of an entry's parameters and of what it returns, if it does."""
+
+    parameters: tuple[Kind, ...]
+    result: Kind | None = None
+
+
+_W, _N, _ROWS, _I, _X = Kind.REALS, Kind.INTEGERS, Kind.ROWS, Kind.INTEGER, Kind.REAL
+
+ENTRY_KINDS = {
+    "advance": Entry((_W, _N, _W, _ROWS, _I, _I, _ROWS), _I),
+    "rerun": Entry((_W, _N, _I, _I)),
+    "restore": Entry((_W, _N, _I)),
+    "set_flags": Entry((_N, _I, _I, _I, _I)),
+    "emit": Entry((_W, _N, _ROWS, _I)),
+    "collect": Entry((_W, _I)),
+    "correct": Entry((_W, _I), _X),
+    "correct_considering": Entry((_W, _I, _I), _X),
+    "turn": Entry((_W, _I, _I, _X, _X, _W, _W)),
+    "closest": Entry((_W, _X, _X)),
+}

@@ -139,6 +139,7 @@ def run(args: argparse.Namespace) -> int:
         "calibration": {foot: list(c.triads()) for foot, c in calibration.items()},
         "self_calibrated": args.self_calibrate,
     }
+    result = replace(result, tracked=result.trajectory)  # its figures are taken: an hour is 120 MB
     paths = [] if args.output is None else _write(args, result, metrics)
     _remember(args.bias_memory, memory, result)
     _print(args, result, {**metrics, "files": [str(path) for path in paths]}, paths)

@@ -85,13 +85,11 @@ def add_export_arguments(parser: argparse.ArgumentParser) -> None:
 
 def write_exports(folder: Path, result: Evaluation, options: ExportOptions) -> list[Path]:
     """Write the person's track, and what ``options`` ask for; return the paths."""
-    from ..evaluation import person_track
     from ..evaluation.exports import write_estimate_bag, write_geo_files, write_person
 
-    person = person_track(result.trajectory)
-    paths = write_person(folder, person)
+    paths = write_person(folder, result.person)
     if options.origin is not None:
-        paths += write_geo_files(folder, person, options.origin, options.name)
+        paths += write_geo_files(folder, result.person, options.origin, options.name)
     if options.estimate_bag:
-        paths.append(write_estimate_bag(folder, result.trajectory, person))
+        paths.append(write_estimate_bag(folder, result.trajectory, result.person))
     return paths

@@ -17,6 +17,7 @@ from .samples.series import BoolArray, FloatArray, ImuPair, ImuSeries, IntArray,
 from .session import Session
 
 STRETCH = 1 << 12  # samples that are run at once: their rows stay in the cache of the processor
+STANDING = 1 << 7  # the same of a stand, whose windows are looked at before it is known to end
 AHEAD = 1 << 8  # samples that are looked up at once, to be run one by one
 
 
@@ -43,8 +44,8 @@ class BatchRun:
         """Feed everything to ``stream`` and keep what it gives."""
         k, count = 0, len(self._stamps)
         while k < count:
-            session = stream.walking
-            stop = k if session is None else min(self._next_stop(session, k), k + STRETCH)
+            session = stream.undisturbed
+            stop = k if session is None else self._stop(session, k)
             if session is not None and stop > k:
                 self._run_stretch(stream, session, k, stop)
                 k = stop
@@ -55,6 +56,11 @@ class BatchRun:
             late = stream.start_late(int(self._stamps[self._taken[-1]]))
             if late is not None:
                 self._keep(late)
+
+    def _stop(self, session: Session, k: int) -> int:
+        """Return the end of the stretch that begins with sample ``k``."""
+        longest = STRETCH if session.phase == "walking" else STANDING
+        return min(self._next_stop(session, k), k + longest)
 
     def _next_stop(self, session: Session, k: int) -> int:
         """Return the first sample from ``k`` on that is no regular one of ``session``."""

@@ -97,9 +97,9 @@ class PairStream:
         return self.session.phase if self.session else "aligning"
 
     @property
-    def walking(self) -> Session | None:
+    def undisturbed(self) -> Session | None:
         """The session, when nothing but samples can change it now."""
-        return self.session if self.phase == "walking" and not self.pose else None
+        return None if self.pose or self._pending else self.session
 
     def reset(self, stamp_ns: int, reason: Reason) -> None:
         """Forget everything but the counters and align anew."""
@@ -212,7 +212,7 @@ class PairStream:
         return session.set_pose(stamp, pose)
 
     def went_on(self, rows: FloatArray, last_ns: int) -> bool:
-        """Take note that ``walking`` has run samples; return whether their rows are numbers.
+        """Take note that ``undisturbed`` has run samples; return whether their rows are numbers.
 
         ``rows`` (N, OUT) are what it gave, ``last_ns`` the stamp of the last sample.
         """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,6 @@ import numpy as np
 from ..core import FEET, EvaluationError, EventKind, FootTrajectory, IntArray, Trajectory
 from ..inspection import Finding
 from ..recording import Reference
-from ..settings import PersonConfig
 from .frames.association import Footfalls
 from .frames.gauge import (
     Markers,
@@ -25,30 +25,14 @@ from .frames.gauge import (
 )
 from .frames.yaw_transform import Align, YawTransform
 from .gait import Gait, strides_of, summarise
-from .metrics.accuracy import Errors, StrideErrors, heading_error, position_errors, stride_errors
 from .metrics.closure import Closure, closure
 from .metrics.foot_passings import FeetReport, feet_report
-from .metrics.heading_split import HeadingErrors, heading_errors
 from .metrics.markers import MarkerErrors, marker_errors
-from .metrics.nees import Consistency, consistency
-from .metrics.position_trust import trust_report
+from .metrics.position_trust import TrustReport, trust_report
 from .notes import field_notes, marker_notes, pressure_notes, refusal_notes
+from .person_track import PersonTrack, person_track
 from .plain import plain
-
-TRUST_LIMIT_M = PersonConfig().trust_limit
-
-
-@dataclass(frozen=True)
-class TruthReport:
-    """Everything that needs the truth."""
-
-    left: Errors
-    right: Errors
-    midpoint: Errors
-    left_strides: StrideErrors
-    right_strides: StrideErrors
-    heading: HeadingErrors
-    nees: Consistency
+from .truth_report import TruthReport, against_truth
 
 
 @dataclass(frozen=True)
@@ -87,6 +71,11 @@ class Evaluation:
     findings: tuple[Finding, ...] = ()
     run_s: float | None = None
 
+    @cached_property
+    def person(self) -> PersonTrack:
+        """The person between the aligned feet; calculated once."""
+        return person_track(self.trajectory)
+
     @property
     def feet_tracks(self) -> dict[str, FootTrajectory]:
         """Return both aligned feet by name."""
@@ -116,7 +105,7 @@ class Evaluation:
                 "closed_loop": self.closed_loop,
                 "closure": self.closure and asdict(self.closure),
                 "feet": asdict(self.feet),
-                "trust": asdict(trust_report(self.tracked, TRUST_LIMIT_M)),
+                "trust": asdict(self._trust()),
                 "gait": self._gait(),
                 "events": event_counts(track),
                 "counters": dict(track.counters),
@@ -124,6 +113,11 @@ class Evaluation:
             }
         )
         return figures
+
+    def _trust(self) -> TrustReport:
+        from ..settings import PersonConfig  # here: it brings the drivers
+
+        return trust_report(self.tracked, PersonConfig().trust_limit)
 
     def _gait(self) -> dict[str, Any]:
         return {
@@ -178,7 +172,7 @@ def evaluate(
         options=options,
         transforms=transforms,
         aligned_to=aligned_to,
-        truth_report=None if truth is None else _against_truth(moved, truth),
+        truth_report=None if truth is None else against_truth(moved, truth),
         marker_report=marker_report,
         closure=closure(trajectory.left, trajectory.right, length),
         closed_loop=reference is not None and reference.closed_loop,
@@ -217,25 +211,6 @@ def _against_markers(
         aligned = stood if transform is None else transform.position(stood)
         reports[foot] = marker_errors(foot, aligned, points)
     return reports
-
-
-def _against_truth(aligned: Trajectory, truth: Truth) -> TruthReport:
-    feet = (aligned.left, aligned.right)
-    falls = [Footfalls.of(foot) for foot in feet]
-    walked = [f.walked(t.position, t.stamp_ns) for f, t in zip(falls, truth, strict=True)]
-    errors = [f.position - t.position for f, t in zip(feet, truth, strict=True)]
-    turns = [heading_error(f.quaternion, t.quaternion) for f, t in zip(feet, truth, strict=True)]
-    return TruthReport(
-        left=position_errors(errors[0], walked[0]),
-        right=position_errors(errors[1], walked[1]),
-        midpoint=position_errors((errors[0] + errors[1]) / 2, (walked[0] + walked[1]) / 2),
-        left_strides=stride_errors(feet[0], truth[0], falls[0]),
-        right_strides=stride_errors(feet[1], truth[1], falls[1]),
-        heading=heading_errors(turns[0], turns[1]),
-        nees=consistency(
-            feet, truth, (falls[0].middle, falls[1].middle), aligned.relative_covariance
-        ),
-    )
 
 
 def _feet(aligned: Trajectory, truth: Truth | None) -> FeetReport:

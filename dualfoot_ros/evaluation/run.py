@@ -29,7 +29,6 @@ from ..inspection import (
     walk_findings,
 )
 from ..recording import Correction, Recording, Reference
-from ..settings import flat, load_config
 from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options, Truth
 from .notes import config_notes
@@ -199,6 +198,8 @@ def choose_config(config: TrackerConfig | str | Path | None, options: RunOptions
     ConfigError
         When a preset, a file or a parameter is not known or out of its range.
     """
+    from ..settings import flat, load_config  # here: they bring the drivers
+
     overrides = flat(nested(options.parameters))
     if options.method is not None:
         overrides["method"] = options.method

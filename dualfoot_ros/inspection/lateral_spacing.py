@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -79,9 +80,11 @@ class SideBySide:
 
 def side_by_side(passings: Sequence[StancePassing]) -> SideBySide:
     """Estimate the spacing from the passings of a walk; without turns it stays at 0 +- 0.3 m."""
-    filter_, used = _run(passings)
+    filter_, used, first = _run(passings)
+    if used < len(passings):
+        first = _run(passings[: used // 2])[0]
     sign = math.copysign(1.0, filter_.x[S])
-    halves = (_run(half)[0] for half in (passings[: used // 2], passings[used // 2 : used]))
+    halves = (first, _run(passings[used // 2 : used])[0])
     headings = np.unwrap([math.atan2(p.forward[1], p.forward[0]) for p in passings[:used]])
     return SideBySide(
         spacing_m=float(filter_.x[S]),
@@ -95,15 +98,18 @@ def side_by_side(passings: Sequence[StancePassing]) -> SideBySide:
     )
 
 
-def _run(passings: Sequence[StancePassing]) -> tuple[_Filter, int]:
-    """Return the filter after the passings, and the number of those it used."""
+def _run(passings: Sequence[StancePassing]) -> tuple[_Filter, int, _Filter]:
+    """Return the filter after the passings, the number of those it used, and it at half of all."""
     filter_, used = _Filter(), 0
+    half = filter_.copy()
     for passing in passings:
+        if used == len(passings) // 2:
+            half = filter_.copy()
         filter_.add(passing)
         used += 1
         if abs(filter_.x[DELTA]) > FARTHEST_HEADING:
             break
-    return filter_, used
+    return filter_, used, half
 
 
 class _Filter:
@@ -120,6 +126,12 @@ class _Filter:
         self._last: StancePassing | None = None
         self._way_m = 0.0
 
+    def copy(self) -> _Filter:
+        """Return the same filter, which goes on by itself."""
+        own = copy(self)
+        own.x, own.p = self.x.copy(), self.p.copy()
+        return own
+
     def add(self, passing: StancePassing) -> None:
         """Go on to ``passing`` and take it."""
         if self._last is not None:
@@ -127,15 +139,22 @@ class _Filter:
         self._last = passing
         left, forward = passing.left, passing.forward
         sign = 1.0 if passing.standing == 1 else -1.0
-        h = np.column_stack([left, np.eye(2), np.zeros((2, 2)), sign * forward])
-        noise = ACROSS_STD_M**2 * np.outer(left, left)
-        noise += ALONG_STD_M**2 * np.outer(forward, forward)
+        h = np.array(
+            [
+                [left[0], 1.0, 0.0, 0.0, 0.0, sign * forward[0]],
+                [left[1], 0.0, 1.0, 0.0, 0.0, sign * forward[1]],
+            ]
+        )
+        noise = ACROSS_STD_M**2 * (left[:, None] * left)
+        noise += ALONG_STD_M**2 * (forward[:, None] * forward)
         innovation = passing.separation - h @ self.x
         s = h @ self.p @ h.T + noise
-        if innovation @ np.linalg.solve(s, innovation) > JUMP_NIS:
+        nis = innovation @ np.linalg.solve(s, innovation)
+        if nis > JUMP_NIS:
             self._place_anew(float(innovation @ innovation))
             s = h @ self.p @ h.T + noise
-        self.nis += float(innovation @ np.linalg.solve(s, innovation))
+            nis = innovation @ np.linalg.solve(s, innovation)
+        self.nis += float(nis)
         self.taken += 1
         gain = self.p @ h.T @ np.linalg.inv(s)
         self.x = self.x + gain @ innovation

@@ -25,6 +25,7 @@ SPAN_S = (0.4, 2.0)  # a gait cycle
 IRREGULAR_S = 0.05  # a span whose stamps miss more is not used
 RATE_HZ = 100.0  # samples are averaged to about this
 MOST_SPANS = 24
+TOGETHER = 1 << 11  # windows at once: what they need stays in the cache of the processor
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,9 @@ def _average(series: ImuSeries) -> ImuSeries:
 def _windows(force: FloatArray, size: int) -> tuple[FloatArray, FloatArray]:
     """Return mean (N - size + 1, 3) and unrest (N - size + 1,) m/s^2 of every window."""
     windows = sliding_window_view(force, size, axis=0)
-    means, scatter = windows.mean(axis=2), np.sqrt(windows.var(axis=2).sum(axis=1))
+    parts = np.array_split(windows, max(1, len(windows) // TOGETHER))
+    means = np.concatenate([part.mean(axis=2) for part in parts])
+    scatter = np.concatenate([np.sqrt(part.var(axis=2).sum(axis=1)) for part in parts])
     norms = np.linalg.norm(means, axis=1)
     few = max(1, round(QUIETEST * len(scatter)))
     gravity = np.median(norms[np.argpartition(scatter, few - 1)[:few]])
@@ -94,13 +97,21 @@ def _windows(force: FloatArray, size: int) -> tuple[FloatArray, FloatArray]:
 
 def _quiet_instants(unrest: FloatArray, apart: int) -> IntArray:
     """Return the windows that are the quietest within ``apart`` windows, and quiet."""
-    padded = np.pad(unrest, apart, constant_values=np.inf)
-    least = sliding_window_view(padded, 2 * apart + 1).min(axis=1)
+    least = _least_within(np.pad(unrest, apart, constant_values=np.inf), 2 * apart + 1)
     found: list[int] = []
     for k in np.flatnonzero((unrest == least) & (unrest < UNQUIET)).tolist():
         if not found or k - found[-1] >= apart // 2:
             found.append(k)
     return np.array(found, dtype=np.int64)
+
+
+def _least_within(values: FloatArray, size: int) -> FloatArray:
+    """Return the least (N - size + 1,) of each ``size`` values: of two stretches, doubled."""
+    least, length = values, 1
+    while 2 * length <= size:
+        least, length = np.minimum(least[:-length], least[length:]), 2 * length
+    rest = size - length
+    return np.minimum(least[: len(least) - rest], least[rest:])
 
 
 def _cycles(series: ImuSeries, starts: IntArray, size: int) -> list[tuple[int, int]]:

@@ -7,13 +7,13 @@ another axis of its triad moves.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
-from ..core import STANDARD_GRAVITY, FloatArray, ImuSeries
+from ..core import STANDARD_GRAVITY, BoolArray, FloatArray, ImuSeries
 
 LEAST_S = 0.2  # a sensor that repeats itself while it cannot be at rest
 LEAST_AT_REST_S = 3.0
@@ -72,19 +72,19 @@ def find_stuck(series: ImuSeries) -> tuple[Stuck, ...]:
         return ()
     values = np.hstack([series.specific_force, series.angular_rate])
     seconds = (series.stamp_ns - series.stamp_ns[0]) * 1e-9
-    whole = [run for run in _constant_runs(values) if _is_stuck(values, seconds, run)]
+    same = [np.diff(column) == 0.0 for column in values.T]
+    sensor = _runs(np.logical_and.reduce(same))
+    whole = [run for run in sensor if _is_stuck(values, seconds, run)]
     if whole:
         return (_summarise(Channel.SENSOR, whole, seconds),)
-    return tuple(_stuck_axes(values, seconds))
+    return tuple(_stuck_axes(values, seconds, same))
 
 
-def _stuck_axes(values: FloatArray, seconds: FloatArray) -> Iterator[Stuck]:
+def _stuck_axes(
+    values: FloatArray, seconds: FloatArray, same: Sequence[BoolArray]
+) -> Iterator[Stuck]:
     for axis, channel in enumerate(AXES):
-        runs = [
-            run
-            for run in _constant_runs(values[:, [axis]])
-            if _others_move(values, seconds, axis, run)
-        ]
+        runs = [run for run in _runs(same[axis]) if _others_move(values, seconds, axis, run)]
         if runs:
             yield _summarise(channel, runs, seconds)
 
@@ -127,12 +127,12 @@ def _mode(column: FloatArray) -> tuple[float, float, bool]:
     return float(values[most]), float(counts[most] / len(column)), most in (0, len(values) - 1)
 
 
-def _constant_runs(values: FloatArray) -> list[Run]:
-    """Return the stretches in which no value changes."""
-    same = (np.diff(values, axis=0) == 0.0).all(axis=1)
+def _runs(same: BoolArray) -> list[Run]:
+    """Return the long stretches of samples of which each is the ``same`` (N - 1,) as the next."""
     edges = np.flatnonzero(np.diff(np.concatenate(([0], same.astype(np.int8), [0]))))
-    runs = [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
-    return [(first, last) for first, last in runs if last - first + 1 >= LEAST_SAMPLES]
+    runs = edges.reshape(-1, 2)
+    long = runs[runs[:, 1] - runs[:, 0] + 1 >= LEAST_SAMPLES]
+    return [(first, last) for first, last in long.tolist()]
 
 
 def _is_stuck(values: FloatArray, seconds: FloatArray, run: Run) -> bool:

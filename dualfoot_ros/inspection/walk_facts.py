@@ -128,11 +128,9 @@ def _seconds(foot: FootTrajectory, epoch: int) -> float:
 def _missed(bounds: IntArray, other: np.ndarray) -> int:
     """Return how many stances of ``other`` more than one lie within steps of a foot."""
     theirs = stance_bounds(other)
-    missed = 0
-    for begin, end in zip(bounds[:-1, 1], bounds[1:, 0], strict=True):
-        inside = (theirs[:, 0] >= begin) & (theirs[:, 1] <= end)
-        missed += max(0, int(inside.sum()) - 1)
-    return missed
+    before = np.searchsorted(theirs[:, 0], bounds[:-1, 1], side="left")
+    until = np.searchsorted(theirs[:, 1], bounds[1:, 0], side="right")
+    return int(np.maximum(until - before - 1, 0).sum())
 
 
 def _swings_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:

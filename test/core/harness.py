@@ -91,7 +91,10 @@ def standing_samples(count: int, rate: float = 100.0, seed: int = 0) -> Pairs:
 def open_session(
     config: TrackerConfig, pairs: Pairs, engine: Engine | None = None, seconds: float = 3.0
 ) -> tuple[Session, int]:
-    """Align on the first ``seconds``; return the session and the index of the next sample."""
+    """Align on the first ``seconds``; return the session and the index of the next sample.
+
+    What comes after them refines the stand no more: its epochs follow each other as they are.
+    """
     count = round(seconds * 1e9 / float(np.median(np.diff(pairs.stamps))))
     alignment, start = Alignment(config), None
     for stamp, row in zip(pairs.stamps[:count].tolist(), pairs.values[:count], strict=True):
@@ -100,7 +103,7 @@ def open_session(
         elif alignment.refine(stamp, row):
             start = replace(start, feet=alignment.result())
     assert start is not None, alignment.complaint
-    return Session(config, engine or quick_engine(), start, alignment), count
+    return Session(config, engine or quick_engine(), start), count
 
 
 def follow(session: Session, pairs: Pairs, start: int) -> Iterator[tuple[int, list]]:

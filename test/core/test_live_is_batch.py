@@ -115,6 +115,15 @@ def test_interpreted_equals_compiled_to_the_bit(method, wrong):
     same_bits(interpreted, DualFootTracker(config, engine="compiled").run(*pairs.series()))
 
 
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("gone_s", [3.0, 5.2, 5.9])
+def test_live_equals_batch_where_a_foot_is_missing_while_both_stand(method, gone_s):
+    pairs = clean_walk()
+    k = round(gone_s * len(pairs.stamps) / 16.0)
+    pairs.values[k : k + 25, 6:] = np.nan
+    assert both(method, pairs) is not None
+
+
 def test_a_switch_of_the_engine_in_mid_walk_leaves_no_trace():
     if ENGINE == "interpreted":
         pytest.skip("numba is not installed")

@@ -69,3 +69,31 @@ def searched_forwards(stamps: np.ndarray, values: np.ndarray, config: TrackerCon
         found = stand.result() if stand.seconds >= 2.0 else found
         stand.clear()
     return found
+
+
+@pytest.mark.parametrize("kind", ["even", "jittered", "with holes", "few"])
+def test_samples_taken_many_at_once_give_the_windows_of_those_taken_one_by_one(kind):
+    rng = np.random.default_rng(7)
+    stamps = stamps_of(kind, rng)
+    values = rng.normal(size=(len(stamps), 6))
+    alone, mixed, found, expected = WindowSlider(SECONDS), WindowSlider(SECONDS), [], []
+    for k, row in enumerate(values):
+        expected.append((k, alone.add(int(stamps[k]), row)))
+    at = 0
+    for size in (3, 200, 1, 350, 600, 5000):
+        part = slice(at, at + size)
+        found += [(at + k, w) for k, w in mixed.add_all(stamps[part], values[part])]
+        at += size
+        for k in range(at, min(at + 20, len(stamps))):
+            found.append((k, mixed.add(int(stamps[k]), values[k])))
+        at += 20
+        if at >= len(stamps):
+            break
+    same_windows([f for f in found if f[1]], [e for e in expected if e[1]])
+
+
+def same_windows(found, expected) -> None:
+    assert [k for k, _ in found] == [k for k, _ in expected]
+    for (_, one), (_, other) in zip(found, expected, strict=True):
+        assert (one.end_ns, one.seconds) == (other.end_ns, other.seconds)
+        assert np.array_equal(one.mean, other.mean) and np.array_equal(one.std, other.std)

@@ -8,9 +8,8 @@ the walk give the level, and the gyro bias is known as far as sensors of the kin
 
 from __future__ import annotations
 
-import math
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -18,14 +17,14 @@ import numpy as np
 
 from ..config import TrackerConfig
 from ..results.events import FEET
-from ..samples.series import FloatArray
+from ..samples.series import FloatArray, IntArray
 from .first_stance import FirstStances
-from .foot_stand import FootStand, FootStandstill
+from .foot_stand import FootStandstill
+from .foot_watch import FootWatch
 from .prior import BiasPrior
 from .sampling_rate import SamplingRate
-from .window import Window, WindowSlider
+from .window import Window
 
-SHORTEST_S = 0.5  # of a stand that is used
 ABSENT_S = 2.0  # without samples, after which a start does without a foot
 UNKNOWN_BIAS = BiasPrior(np.zeros(3), 0.03)  # rad/s, of consumer sensors at turn-on
 Pair = tuple[int, FloatArray]
@@ -55,67 +54,6 @@ class Start:
     feet: Standstills
     rate_hz: float
     waiting: tuple[Pair, ...] = ()
-
-
-class FootWatch:
-    """Watches one foot: windows of it, the stand it is in, and what ended the last one."""
-
-    def __init__(self, config: TrackerConfig) -> None:
-        """Start with no sample."""
-        self._config = config
-        length = config.alignment.window
-        self._slider, self._short = WindowSlider(length), WindowSlider(min(SHORTEST_S, length))
-        self.stand, self._short_stand = FootStand(config.alignment), FootStand(config.alignment)
-        self.complaint: str | None = None
-        self.still = False
-        self.quiet_s = 0.0
-        self._last_ns = 0
-        self.restarts = 0
-        self.refining = False
-        self.seen_ns: int | None = None
-
-    def add(self, stamp_ns: int, values: FloatArray) -> bool:
-        """Take a sample (6,); return True when a window ended with it."""
-        if not math.isfinite(values.sum()):
-            return False
-        self.seen_ns = stamp_ns
-        short = self._short.add(stamp_ns, values)
-        if short is not None:
-            self._take_short(short)
-        window = self._slider.add(stamp_ns, values)
-        if window is not None:
-            self._take(window)
-        return short is not None or window is not None
-
-    def _take_short(self, window: Window) -> None:
-        """Let the newest short window stand for a stand that is not longer than that."""
-        config = self._config
-        self.still = window.motion(config.alignment, config.gravity) is None
-        self._short_stand.clear()
-        if self.still:
-            self._short_stand.add(window)
-
-    def _take(self, window: Window) -> None:
-        config = self._config
-        self.complaint = window.motion(config.alignment, config.gravity)
-        if self.complaint is None:
-            self.stand.add(window)
-        elif not self.refining:
-            self.restarts += self.stand.count > 0
-            self.stand.clear()
-        step = (window.end_ns - self._last_ns) * 1e-9
-        self._last_ns = window.end_ns
-        quiet = self.complaint is None and window.quiet(config.alignment)
-        self.quiet_s = (self.quiet_s + step if self.quiet_s else window.seconds) if quiet else 0.0
-
-    @property
-    def standstill(self) -> FootStandstill | None:
-        """What the stand that the foot is in tells; None while it moves."""
-        if not self.still:
-            return None
-        if self.stand.count:
-            return self.stand.result()
-        return self._short_stand.result() if self._short_stand.count else None
 
 
 def absent_foot(gravity: float, stamp_ns: int) -> FootStandstill:
@@ -192,6 +130,24 @@ class Alignment:
         for watch in self._watches:
             watch.refining = True
         self._look(stamp_ns, values)
+        return self._is_longer()
+
+    def refine_all(self, stamps: IntArray, values: FloatArray) -> Iterator[int]:
+        """Take pairs (N, 12) of a stand as `refine` does; yield those that it returns True for."""
+        found: dict[int, list[tuple[FootWatch, Window]]] = {}
+        for foot, watch in enumerate(self._watches if len(stamps) else ()):
+            watch.refining = True
+            rows = values[:, 6 * foot : 6 * foot + 6]
+            for row, window in watch.windows(stamps, rows):
+                found.setdefault(row, []).append((watch, window))
+        for row in sorted(found):
+            for watch, window in found[row]:
+                watch.take(window)
+            if self._is_longer():
+                yield row
+
+    def _is_longer(self) -> bool:
+        """Return whether the stand has grown by a window's length since it was last asked."""
         length = self._windows()
         more, self._levelled = length > self._levelled, length
         return more

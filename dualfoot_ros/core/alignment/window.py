@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..groups import AlignmentConfig
-from ..samples.series import FloatArray
+from ..samples.series import FloatArray, IntArray
 
 SLIDES = 25  # steps in which a window moves on by its length
 FEWEST_SAMPLES = 5  # of a window
@@ -105,11 +106,41 @@ class WindowSlider:
             stamps.popleft()
         if not full or len(stamps) < FEWEST_SAMPLES:
             return None
-        if self._due_ns is not None and stamp_ns < self._due_ns:
+        if not self._is_due(stamp_ns):
             return None
-        self._due_ns = max(self._due_ns or stamp_ns, stamp_ns - self._step_ns) + self._step_ns
         block = self._rows[self._stop - len(stamps) : self._stop]
         return Window.of(block, stamp_ns, self._length_ns * 1e-9)
+
+    def add_all(self, stamps: IntArray, rows: FloatArray) -> Iterator[tuple[int, Window]]:
+        """Take samples (N, 6) with rising stamps (N,); yield the windows of `add` and their rows.
+
+        All samples are taken when the last window has been asked for.
+        """
+        held = len(self._stamps)
+        whole_ns = np.concatenate([np.array(self._stamps, dtype=np.int64), stamps])
+        whole = np.concatenate([self._rows[self._stop - held : self._stop], rows])
+        begins = np.searchsorted(whole_ns, whole_ns - self._length_ns, side="right")
+        full = np.diff(begins, prepend=0) > 0
+        full &= np.arange(len(whole_ns)) - begins + 1 >= FEWEST_SAMPLES
+        for k in (held + np.flatnonzero(full[held:])).tolist():
+            if self._is_due(int(whole_ns[k])):
+                block = whole[begins[k] : k + 1]
+                yield k - held, Window.of(block, int(whole_ns[k]), self._length_ns * 1e-9)
+        self._hold(whole_ns[begins[-1] :].tolist(), whole[begins[-1] :])
+
+    def _hold(self, stamps: list[int], rows: FloatArray) -> None:
+        """Hold these samples (N, 6) in place of all others."""
+        self._stamps = deque(stamps)
+        self._rows = np.zeros((max(len(self._rows), 2 * len(rows)), 6))
+        self._rows[: len(rows)] = rows
+        self._stop = len(rows)
+
+    def _is_due(self, stamp_ns: int) -> bool:
+        """Return whether a window that ends now is wanted, and when the next one will be."""
+        if self._due_ns is not None and stamp_ns < self._due_ns:
+            return False
+        self._due_ns = max(self._due_ns or stamp_ns, stamp_ns - self._step_ns) + self._step_ns
+        return True
 
     def _keep(self, values: FloatArray) -> None:
         """Keep a sample (6,) behind the others, which go to the front when there is no room."""

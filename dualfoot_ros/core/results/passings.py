@@ -12,6 +12,7 @@ Swings of less than 0.3 m (shuffling, turning on the spot) have no direction and
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -136,9 +137,10 @@ def ended_stances(trajectory: Trajectory, foot: str) -> list[StanceEpochs]:
     events = [e for e in trajectory.events if e.foot == foot and e.kind in kinds]
     events.sort(key=lambda e: (e.stamp_ns, e.kind is EventKind.STANCE_END))
     stamps: IntArray = trajectory.left.stamp_ns
+    moments = np.array([event.stamp_ns for event in events], dtype=np.int64)
+    epochs = np.clip(np.searchsorted(stamps, moments), 0, len(stamps) - 1).tolist()
     stances, first = [], None
-    for event in events:
-        at = int(np.clip(np.searchsorted(stamps, event.stamp_ns), 0, len(stamps) - 1))
+    for event, at in zip(events, epochs, strict=True):
         if event.kind is EventKind.STANCE_START:
             first = at
         elif first is not None and at > first:
@@ -162,13 +164,12 @@ def _passing(
     way = _direction(tracks[1 - foot], *swing)
     if way is None:
         return
-    ways = [way]
+    forward = way
     if 0 < number < len(stances[foot]) - 1:
         before, after = stances[foot][number - 1], stances[foot][number + 1]
         own = _direction(tracks[foot], before.last, after.first)
-        ways += [] if own is None else [own]
-    forward = np.mean(ways, axis=0)
-    size = float(np.linalg.norm(forward))
+        forward = way if own is None else (way + own) / 2.0
+    size = math.sqrt(forward @ forward)
     if size < SAME_WAY:
         return
     places = tracks[0].position[moment, :2], tracks[1].position[moment, :2]
@@ -188,5 +189,5 @@ def swing_around(stances: list[StanceEpochs], epoch: int) -> tuple[int, int] | N
 def _direction(track: FootTrajectory, begin: int, end: int) -> FloatArray | None:
     """Return the (2,) unit vector from one footprint to the next, None for a short swing."""
     way: FloatArray = (track.position[end] - track.position[begin])[:2]
-    length = float(np.linalg.norm(way))
+    length = math.sqrt(way @ way)
     return None if length < LEAST_SWING_M else way / length

@@ -146,6 +146,38 @@ class Session:
 
         ``dts`` (N,) s are the intervals that end at each sample.
         """
+        for k, stop in self._levelled_spans(stamps, values, span):
+            yield from self._epochs(stamps, dts, values, (k, stop), out)
+
+    def _levelled_spans(
+        self, stamps: IntArray, values: FloatArray, span: tuple[int, int]
+    ) -> Iterator[tuple[int, int]]:
+        """Yield the parts of ``span`` that are run with one level; between them level a stand."""
+        first, stop = span
+        alignment = self._alignment if self.phase == "standing" else None
+        if alignment is not None:
+            missing = np.isnan(values[first:stop]).any(axis=1)
+            known = first + int(np.append(missing, True).argmax())
+            for row in alignment.refine_all(stamps[first:known], values[first:known]):
+                yield first, span[0] + row
+                first = span[0] + row
+                if self.phase != "standing":
+                    break
+                self._feet = alignment.result()
+                self._level()
+            if known < stop:
+                self._alignment = None
+        yield first, stop
+
+    def _epochs(
+        self,
+        stamps: IntArray,
+        dts: FloatArray,
+        values: FloatArray,
+        span: tuple[int, int],
+        out: FloatArray,
+    ) -> Iterator[tuple[int, Found]]:
+        """Run the epochs of ``span`` as they are; yield as `steps` does."""
         space = self.space
         k, stop = span
         while k < stop:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from html import escape
 from pathlib import Path
-from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -102,9 +102,9 @@ def _kml(points: _Points, name: str) -> str:
     return f"""\
 <?xml version="1.0" encoding="UTF-8"?>
 <kml xmlns="http://www.opengis.net/kml/2.2">
-<Document><name>{escape(name)}</name>
+<Document><name>{escape(name, quote=False)}</name>
 <Style id="track"><LineStyle><color>ff8f3f4b</color><width>4</width></LineStyle></Style>
-<Placemark><name>{escape(name)}</name><styleUrl>#track</styleUrl>
+<Placemark><name>{escape(name, quote=False)}</name><styleUrl>#track</styleUrl>
 <LineString><altitudeMode>relativeToGround</altitudeMode>
 <coordinates>{" ".join(places)}</coordinates></LineString></Placemark>
 {ends}
@@ -125,7 +125,7 @@ def _gpx(points: _Points, name: str) -> str:
     return f"""\
 <?xml version="1.0" encoding="UTF-8"?>
 <gpx version="1.1" creator="dualfoot_ros" xmlns="http://www.topografix.com/GPX/1/1">
-<trk><name>{escape(name)}</name><trkseg>
+<trk><name>{escape(name, quote=False)}</name><trkseg>
 {chr(10).join(rows)}
 </trkseg></trk>
 </gpx>

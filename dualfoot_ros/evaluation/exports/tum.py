@@ -10,14 +10,16 @@ from pathlib import Path
 import numpy as np
 
 from ...core import FootTrajectory, PoseSeries
-from .number_text import lines, seconds
+from .number_text import BLOCK, lines, seconds
 
 DECIMALS = 9
 
 
 def write_tum(path: Path, track: FootTrajectory | PoseSeries) -> Path:
     """Write one track; the stamps keep their nanoseconds."""
-    rows = np.hstack([track.position, track.quaternion])
     with path.open("wb") as file:
-        file.writelines(lines(seconds(track.stamp_ns), rows, DECIMALS, " "))
+        for first in range(0, len(track), BLOCK):
+            rows = slice(first, first + BLOCK)
+            values = np.hstack([track.position[rows], track.quaternion[rows]])
+            file.writelines(lines(seconds(track.stamp_ns[rows]), values, DECIMALS, " "))
     return path

@@ -16,6 +16,8 @@ from ...core import (
     stance_middles,
 )
 
+TOGETHER = 1 << 14  # stamps at once, for which a slerp needs some megabytes
+
 
 def seconds(stamp_ns: IntArray, origin_ns: int) -> FloatArray:
     """Return (N,) seconds since ``origin_ns``."""
@@ -33,7 +35,11 @@ def truth_at(stamp_ns: IntArray, truth: PoseSeries) -> PoseSeries:
 
     origin = int(truth.stamp_ns[0])
     known, wanted = seconds(truth.stamp_ns, origin), seconds(stamp_ns, origin)
-    attitude = Slerp(known, Rotation.from_quat(truth.quaternion))(wanted).as_quat()
+    slerp = Slerp(known, Rotation.from_quat(truth.quaternion))
+    attitude = np.empty((len(wanted), 4))
+    for start in range(0, len(wanted), TOGETHER):
+        part = slice(start, start + TOGETHER)
+        attitude[part] = slerp(wanted[part]).as_quat()
     if truth.velocity is None:
         position = np.column_stack([np.interp(wanted, known, p) for p in truth.position.T])
         return PoseSeries(stamp_ns, position, attitude)

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -120,7 +119,10 @@ def _lows(pitch: FloatArray) -> list[int]:
     """Return where the toes point down most: once a swing, twice where a stance was missed."""
     least = float(pitch.min())
     deep = np.flatnonzero(pitch <= max(least, 0.5 * least))
-    ends = [k + 1 for k, (a, b) in enumerate(pairwise(deep)) if pitch[a : b + 1].max() > 0.0]
+    split = np.maximum(pitch[deep[:-1]], pitch[deep[1:]]) > 0.0
+    for k in np.flatnonzero(np.diff(deep) > 1).tolist():
+        split[k] = pitch[deep[k] : deep[k + 1] + 1].max() > 0.0
+    ends = np.flatnonzero(split) + 1
     return [int(dip[np.argmin(pitch[dip])]) for dip in np.split(deep, ends)]
 
 

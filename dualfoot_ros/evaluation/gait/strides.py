@@ -184,8 +184,9 @@ def _within_a_stride(time_s: float) -> float:
 def _standing(other: _Foot, k: int, foot: _Foot) -> int | None:
     """Return which stance of the other foot lies in the middle of the swing after stance ``k``."""
     middle = 0.5 * (foot.stance_s[k, 1] + foot.stance_s[k + 1, 0])
-    holds = (other.stance_s[:, 0] <= middle) & (other.stance_s[:, 1] >= middle)
-    return int(np.argmax(holds)) if holds.any() else None
+    next_one = int(np.searchsorted(other.stance_s[:, 1], middle))
+    stands = next_one < len(other.stance_s) and other.stance_s[next_one, 0] <= middle
+    return next_one if stands else None
 
 
 def _step(name: str, k: int, foot: _Foot, other: _Foot, stood: int | None) -> tuple[float, float]:

@@ -6,7 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, fields
+from dataclasses import fields
 from typing import Any
 
 from .strides import Stride
@@ -17,10 +17,10 @@ DIGITS = 6
 def strides_csv(strides: Sequence[Stride]) -> str:
     """Return strides as CSV with a header; a cell is empty where a parameter is not known."""
     text = io.StringIO()
-    writer = csv.DictWriter(text, [f.name for f in fields(Stride)], lineterminator="\n")
-    writer.writeheader()
-    for stride in strides:
-        writer.writerow({name: _cell(value) for name, value in asdict(stride).items()})
+    names = [f.name for f in fields(Stride)]
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(names)
+    writer.writerows([_cell(getattr(stride, name)) for name in names] for stride in strides)
     return text.getvalue()
 
 

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from .bag_source import Block
 from .mcap_format import CHANNEL, CHUNK_HEAD, CHUNK_INDEX, HEAD, MAGIC, MESSAGE
+from .mcap_index import indexed_starts
 from .mcap_scan import decompressor, split, text, u16
 
 FOOTER = struct.Struct("<BQQQI8s")  # opcode, length, starts of summary and of its index, crc
@@ -28,10 +29,11 @@ LOG_AT = 15
 
 
 class ChunkPlace(NamedTuple):
-    """Where a chunk begins in its file, and how long its record is."""
+    """Where a chunk begins in its file, how long its record is, and the index behind it."""
 
     start: int
     length: int
+    index_length: int
 
 
 class McapChunks:
@@ -54,7 +56,7 @@ class McapChunks:
             if record.opcode == CHANNEL:
                 self._names[u16(record.content, 0)] = text(record.content, 4)
             elif record.opcode == CHUNK_INDEX:
-                chunks.append(ChunkPlace(*struct.unpack_from("<QQ", record.content, 16)))
+                chunks.append(_place(record.content))
         if not chunks or not self._names:
             raise ValueError("it has no index of chunks")
         self._chunks = sorted(chunks)
@@ -72,9 +74,10 @@ class McapChunks:
             for place in self._chunks:
                 file.seek(place.start + HEAD.size)
                 records = _records(file.read(place.length - HEAD.size))
-                for channel, starts in _starts(records).items():
+                starts = indexed_starts(file.read(place.index_length), records)
+                for channel, places in (starts or _starts(records)).items():
                     if channel in wanted:
-                        yield self._block(wanted[channel], records, np.array(starts))
+                        yield self._block(wanted[channel], records, places)
 
     def _block(self, topic: str, records: bytes, starts: NDArray[np.int64]) -> Block:
         """Return the messages whose records begin at ``starts``."""
@@ -87,6 +90,12 @@ class McapChunks:
             return Block(topic, logged, sliding_window_view(raw, first)[bodies], self._number)
         parts = zip(bodies.tolist(), lengths.tolist(), strict=True)
         return Block(topic, logged, [records[at : at + size] for at, size in parts], self._number)
+
+
+def _place(content: bytes) -> ChunkPlace:
+    """Return the place that a record of the index of chunks tells."""
+    start, length, size = struct.unpack_from("<QQI", content, 16)
+    return ChunkPlace(start, length, *struct.unpack_from("<Q", content, 36 + size))
 
 
 def _summary(file: BinaryIO) -> bytes:
@@ -113,7 +122,7 @@ def _records(chunk: bytes) -> bytes:
     return records
 
 
-def _starts(records: bytes) -> dict[int, list[int]]:
+def _starts(records: bytes) -> dict[int, NDArray[np.int64]]:
     """Return where the messages of each channel begin."""
     starts: dict[int, list[int]] = defaultdict(list)
     at, end, unpack = 0, len(records), RECORD.unpack_from
@@ -124,4 +133,4 @@ def _starts(records: bytes) -> dict[int, list[int]]:
         at += HEAD.size + length
     if at != end:
         raise ValueError("a record is longer than its chunk")
-    return starts
+    return {channel: np.array(own) for channel, own in starts.items()}

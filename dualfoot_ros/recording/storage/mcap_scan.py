@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
-from typing import BinaryIO, NamedTuple
+from typing import Any, BinaryIO, NamedTuple
 
 from .bag_source import Message, TopicInfo
 from .mcap_format import (
@@ -155,19 +155,24 @@ def decompressor(name: str) -> Callable[[bytes], bytes]:
 
 def _lz4(data: bytes) -> bytes:
     frame = import_module("lz4.frame")
-    return _in_pieces(frame.LZ4FrameDecompressor().decompress, data, (EOFError, RuntimeError))
+    return _as_far_as_whole(frame.LZ4FrameDecompressor, data, (EOFError, RuntimeError))
 
 
 def _zstd(data: bytes) -> bytes:
     library = zstd()
-    return _in_pieces(library.ZstdDecompressor().decompress, data, (EOFError, library.ZstdError))
+    return _as_far_as_whole(library.ZstdDecompressor, data, (EOFError, library.ZstdError))
 
 
-def _in_pieces(
-    decompress: Callable[[bytes], bytes], data: bytes, errors: tuple[type[Exception], ...]
+def _as_far_as_whole(
+    make: Callable[[], Any], data: bytes, errors: tuple[type[Exception], ...]
 ) -> bytes:
-    """Return what comes out before the first piece that is damaged."""
-    found = bytearray()
+    """Return what comes out of all the data, or before the first piece that is damaged.
+
+    ``make`` makes a decompressor, which is of no more use after an error.
+    """
+    with suppress(*errors):
+        return bytes(make().decompress(data))
+    found, decompress = bytearray(), make().decompress
     with suppress(*errors):
         for at in range(0, len(data), PIECE):
             found += decompress(data[at : at + PIECE])

@@ -10,6 +10,8 @@ from ...core import BoolArray, FloatArray, ImuSeries, IntArray
 from .interpolation import between_rows
 from .pairing_config import AlignerConfig
 
+TOGETHER = 1 << 12  # stamps at once: what they need stays in the cache of the processor
+
 
 @dataclass(frozen=True)
 class GridLookup:
@@ -78,19 +80,28 @@ class GridLookup:
     def take(self, series: ImuSeries, grid: IntArray, kept: BoolArray) -> ImuSeries:
         """Return the series at the ``kept`` stamps of the grid, NaN where there is no value."""
         field = series.magnetic_field
-        values = np.full((int(kept.sum()), 6), np.nan)
-        there, good = self.found[kept], kept & self.found
-        measured = np.hstack([series.specific_force, series.angular_rate])
-        before, after = measured[self.before[good]], measured[self.after[good]]
-        inside = between_rows(before, after, self.weight[good], self.width_s[good])
-        values[there] = np.where(self.exact[good][:, None], before, inside)
+        force, rate = (np.full((int(kept.sum()), 3), np.nan) for _ in range(2))
+        rows, good = np.flatnonzero(self.found[kept]), np.flatnonzero(kept & self.found)
+        for start in range(0, len(good), TOGETHER):
+            part = slice(start, start + TOGETHER)
+            values = self._between(series, good[part])
+            force[rows[part]], rate[rows[part]] = values[:, :3], values[:, 3:]
         return ImuSeries(
             grid[kept],
-            values[:, :3],
-            values[:, 3:],
+            force,
+            rate,
             None if field is None else self._values(field, kept),
             series.increments,
         )
+
+    def _between(self, series: ImuSeries, at: IntArray) -> FloatArray:
+        """Return force and rate (K, 6) at places (K,) of the grid at which they are known."""
+        before, after = (
+            np.hstack([series.specific_force[rows], series.angular_rate[rows]])
+            for rows in (self.before[at], self.after[at])
+        )
+        inside = between_rows(before, after, self.weight[at], self.width_s[at])
+        return np.where(self.exact[at][:, None], before, inside)
 
     def _values(self, column: FloatArray, kept: BoolArray) -> FloatArray:
         values = np.full((int(kept.sum()), 3), np.nan)

@@ -83,7 +83,10 @@ def all_finite(values: list[float]) -> bool:
 
 def finite_rows(values: FloatArray) -> BoolArray:
     """Return (N,) where all numbers of ``values`` (N, K) are finite, and so are their squares."""
-    return np.asarray((np.abs(values) < INFINITE).all(axis=1))
+    finite = np.abs(values) < INFINITE
+    if finite.all():  # the usual case, without a search of each short row
+        return np.ones(len(values), dtype=bool)
+    return np.asarray(finite.all(axis=1))
 
 
 class Clean(NamedTuple):

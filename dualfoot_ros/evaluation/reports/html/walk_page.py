@@ -11,7 +11,7 @@ from ....core import EventKind
 from ...evaluate import Evaluation
 from ...exports import FloorPlan
 from ...gait import PARAMETERS
-from ...person_track import PersonTrack, person_track
+from ...person_track import PersonTrack
 from ..walk_table import number, sections
 from .page import figure, folded, html_table, page, section, tiles, words
 from .walk_charts import walk_charts
@@ -67,7 +67,7 @@ def walk_page(
     charts: dict[str, Any] = {}
     body: list[str] = []
     for index, (name, run) in enumerate(runs.items()):
-        person = person_track(run.trajectory)
+        person = run.person
         own = _prefixed(index, walk_tables(run, person), walk_charts(run, person))
         if floor_plan is not None:
             own[1][f"{index}.map"]["picture"] = floor_plan.picture(person)

@@ -15,6 +15,7 @@ from .style import FOOT, new_figure, save
 ROW_S = 20.0
 LONGEST_ROW_S = 100.0  # on which a stance still shows
 MOST_ROWS = 12
+Bar = tuple[float, float]  # start and length, s
 
 
 def draw_stances(run: Evaluation, path: Path, title: str) -> Path:
@@ -25,9 +26,10 @@ def draw_stances(run: Evaluation, path: Path, title: str) -> Path:
     rows = max(1, math.ceil(time[-1] / row_s))
     shown = min(rows, MOST_ROWS)
     figure, axes = new_figure(11.0, 1.2 + 0.75 * shown, rows=shown)
+    feet = {foot: _bars(time, track.stance) for foot, track in run.feet_tracks.items()}
     for number, axis in enumerate(axes.flat):
-        for level, (foot, track) in enumerate(reversed(run.feet_tracks.items())):
-            bars = _bars(time, track.stance)
+        for level, (foot, stood) in enumerate(reversed(feet.items())):
+            bars = _within(stood, number * row_s, (number + 1) * row_s)
             axis.broken_barh(bars, (level + 0.1, 0.8), color=FOOT[foot], linewidth=0)
         axis.set_xlim(number * row_s, (number + 1) * row_s)
         axis.set_xticks(np.arange(11) * row_s / 10 + number * row_s)
@@ -46,6 +48,11 @@ def _row_s(time_s: float) -> float:
     return min(max(1, lines) * ROW_S, LONGEST_ROW_S)
 
 
-def _bars(time: np.ndarray, stance: np.ndarray) -> list[tuple[float, float]]:
+def _within(bars: list[Bar], start_s: float, end_s: float) -> list[Bar]:
+    """Return the bars of which something is between two times."""
+    return [bar for bar in bars if bar[0] <= end_s and bar[0] + bar[1] >= start_s]
+
+
+def _bars(time: np.ndarray, stance: np.ndarray) -> list[Bar]:
     last = len(time) - 1
     return [(time[a], time[min(b, last)] - time[a]) for a, b in stance_bounds(stance)]

@@ -13,7 +13,6 @@ from ....core import FEET, FloatArray
 from ...evaluate import Evaluation
 from ...exports import FloorPlan
 from ...frames.association import Footfalls
-from ...person_track import person_track
 from .style import FOOT, MARKER, TRUTH, new_figure, save, thinned, wrapped
 
 if TYPE_CHECKING:
@@ -95,7 +94,7 @@ def _lay_under(axis: Axes, run: Evaluation, plan: FloorPlan) -> None:
     from matplotlib.image import imread
     from matplotlib.transforms import Affine2D
 
-    place = plan.picture(person_track(run.trajectory))
+    place = plan.picture(run.person)
     left, top = place["x"] - place["left"], place["y"] + place["up"]
     turn = Affine2D().rotate_deg_around(place["x"], place["y"], place["angle"])
     axis.margins(MARGIN)

@@ -1,0 +1,80 @@
+"""One foot before a track starts: whether it stands, for how long, and what the stand tells."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ..config import TrackerConfig
+from ..samples.series import FloatArray, IntArray
+from .foot_stand import FootStand, FootStandstill
+from .window import Window, WindowSlider
+
+SHORTEST_S = 0.5  # of a stand that is used
+
+
+class FootWatch:
+    """Watches one foot: windows of it, the stand it is in, and what ended the last one."""
+
+    def __init__(self, config: TrackerConfig) -> None:
+        """Start with no sample."""
+        self._config = config
+        length = config.alignment.window
+        self._slider, self._short = WindowSlider(length), WindowSlider(min(SHORTEST_S, length))
+        self.stand, self._short_stand = FootStand(config.alignment), FootStand(config.alignment)
+        self.complaint: str | None = None
+        self.still = False
+        self.quiet_s = 0.0
+        self._last_ns = 0
+        self.restarts = 0
+        self.refining = False
+        self.seen_ns: int | None = None
+
+    def add(self, stamp_ns: int, values: FloatArray) -> bool:
+        """Take a sample (6,); return True when a window ended with it."""
+        if not math.isfinite(values.sum()):
+            return False
+        self.seen_ns = stamp_ns
+        short = None if self.refining else self._short.add(stamp_ns, values)
+        if short is not None:
+            self._take_short(short)
+        window = self._slider.add(stamp_ns, values)
+        if window is not None:
+            self.take(window)
+        return short is not None or window is not None
+
+    def _take_short(self, window: Window) -> None:
+        """Let the newest short window stand for a stand that is not longer than that."""
+        config = self._config
+        self.still = window.motion(config.alignment, config.gravity) is None
+        self._short_stand.clear()
+        if self.still:
+            self._short_stand.add(window)
+
+    def windows(self, stamps: IntArray, rows: FloatArray) -> Iterator[tuple[int, Window]]:
+        """Take finite samples (N, 6) of a stand that is refined; yield windows and their ends."""
+        self.seen_ns = int(stamps[-1])
+        return self._slider.add_all(stamps, rows)
+
+    def take(self, window: Window) -> None:
+        """Let a window be a part of the stand, or end it."""
+        config = self._config
+        self.complaint = window.motion(config.alignment, config.gravity)
+        if self.complaint is None:
+            self.stand.add(window)
+        elif not self.refining:
+            self.restarts += self.stand.count > 0
+            self.stand.clear()
+        step = (window.end_ns - self._last_ns) * 1e-9
+        self._last_ns = window.end_ns
+        quiet = self.complaint is None and window.quiet(config.alignment)
+        self.quiet_s = (self.quiet_s + step if self.quiet_s else window.seconds) if quiet else 0.0
+
+    @property
+    def standstill(self) -> FootStandstill | None:
+        """What the stand that the foot is in tells; None while it moves."""
+        if not self.still:
+            return None
+        if self.stand.count:
+            return self.stand.result()
+        return self._short_stand.result() if self._short_stand.count else None

@@ -1,0 +1,57 @@
+"""An aligned trajectory against the truth: positions, strides, headings, consistency."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..core import FootTrajectory, Trajectory
+from .frames.association import Footfalls
+from .frames.gauge import Truth
+from .metrics.accuracy import Errors, StrideErrors, heading_error, position_errors, stride_errors
+from .metrics.heading_split import HeadingErrors, heading_errors
+from .metrics.nees import Consistency, consistency
+
+
+@dataclass(frozen=True)
+class TruthReport:
+    """Everything that needs the truth."""
+
+    left: Errors
+    right: Errors
+    midpoint: Errors
+    left_strides: StrideErrors
+    right_strides: StrideErrors
+    heading: HeadingErrors
+    nees: Consistency
+
+
+def against_truth(aligned: Trajectory, truth: Truth) -> TruthReport:
+    """Compare an aligned trajectory with the truth at its stamps."""
+    feet = (aligned.left, aligned.right)
+    falls = [Footfalls.of(foot) for foot in feet]
+    turns = (heading_error(f.quaternion, t.quaternion) for f, t in zip(feet, truth, strict=True))
+    heading = heading_errors(*turns)
+    left, right, midpoint = _positions(feet, truth, falls)
+    return TruthReport(
+        left=left,
+        right=right,
+        midpoint=midpoint,
+        left_strides=stride_errors(feet[0], truth[0], falls[0]),
+        right_strides=stride_errors(feet[1], truth[1], falls[1]),
+        heading=heading,
+        nees=consistency(
+            feet, truth, (falls[0].middle, falls[1].middle), aligned.relative_covariance
+        ),
+    )
+
+
+def _positions(
+    feet: tuple[FootTrajectory, FootTrajectory], truth: Truth, falls: list[Footfalls]
+) -> tuple[Errors, Errors, Errors]:
+    """Return the errors of both feet and of the middle between them."""
+    walked = [f.walked(t.position, t.stamp_ns) for f, t in zip(falls, truth, strict=True)]
+    error, other = (f.position - t.position for f, t in zip(feet, truth, strict=True))
+    left, right = position_errors(error, walked[0]), position_errors(other, walked[1])
+    error += other
+    error /= 2  # in place: a walk of an hour has 18 MB of them
+    return left, right, position_errors(error, (walked[0] + walked[1]) / 2)

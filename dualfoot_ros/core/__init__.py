@@ -51,7 +51,7 @@ from .results.payloads import (
 )
 from .results.rows import clean_stance, turn_rows
 from .results.trajectory import FootTrajectory, Trajectory, stance_bounds, stance_middles
-from .results.update import FootEstimate, PedestrianEstimate, Update
+from .results.update import ONE_FOOT_STD, FootEstimate, PedestrianEstimate, Update
 from .rotation import (
     about_z,
     exact_rotation,
@@ -97,6 +97,7 @@ __all__ = [
     "IDENTITY",
     "METHODS",
     "MID_STANCE",
+    "ONE_FOOT_STD",
     "RATE_UNITS",
     "RIGHT_FRONT_UP",
     "STANDARD_GRAVITY",

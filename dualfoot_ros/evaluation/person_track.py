@@ -9,6 +9,7 @@ import numpy as np
 from ..core import FloatArray, FootTrajectory, IntArray, Trajectory, quaternion_matrix
 from .frames.association import Footfalls, seconds
 from .gait import forward_axis
+from .person_shares import person_covariance, person_position, person_shares
 
 BLOCK = 1 << 14  # epochs whose matrices are made at once
 CHI2_95_PLANE = 5.991
@@ -22,7 +23,8 @@ class PersonTrack:
     Attributes
     ----------
     stamp_ns : (N,)
-    position : (N, 3) m, midway between the sensors of the feet
+    position : (N, 3) m, midway between the sensors of the feet; where one foot has no samples,
+        that of the other
     covariance : (N, 3, 3) m^2, of the position
     heading : (N,) rad, unwrapped: mean of the directions in which the feet point while they stand
     floor_m : (N,) m, height of the feet where they stand, from stance to stance
@@ -50,35 +52,31 @@ class PersonTrack:
 
 
 def person_track(trajectory: Trajectory) -> PersonTrack:
-    """Return the person's track of both feet."""
+    """Return the person's track of both feet, or of the foot that has samples."""
     feet = trajectory.left, trajectory.right
-    left, right = feet
+    left, shares = feet[0], person_shares(trajectory)
     falls = [Footfalls.of(foot) for foot in feet]
     walked = [f.walked(foot.position, foot.stamp_ns) for f, foot in zip(falls, feet, strict=True)]
+    steps = [np.diff(way, prepend=0.0) for way in walked]
     floors = [_held(foot, f, foot.position[:, 2]) for f, foot in zip(falls, feet, strict=True)]
     headings = [_heading(foot, f) for f, foot in zip(falls, feet, strict=True)]
     return PersonTrack(
         stamp_ns=left.stamp_ns,
-        position=(left.position + right.position) / 2,
+        position=person_position(trajectory),
         covariance=_covariance(trajectory),
-        heading=_mean_heading(*headings),
-        floor_m=(floors[0] + floors[1]) / 2,
-        walked_m=(walked[0] + walked[1]) / 2,
+        heading=_mean_heading(headings[0], headings[1], shares),
+        floor_m=shares[0] * floors[0] + shares[1] * floors[1],
+        walked_m=np.cumsum(shares[0] * steps[0] + shares[1] * steps[1]),
     )
 
 
 def _covariance(trajectory: Trajectory) -> FloatArray:
-    """Return the covariance (N, 3, 3) m^2 of the middle between the feet, some epochs at a time.
-
-    Var((l + r) / 2) = (P_l + P_r) / 2 - Var(l - r) / 4; without the latter, an upper bound.
-    """
-    left, right = trajectory.left.position_covariance, trajectory.right.position_covariance
-    found = np.empty(left.shape)
-    for first in range(0, len(left), BLOCK):
+    """Return the covariance (N, 3, 3) m^2 of the person's position, some epochs at a time."""
+    count = len(trajectory.left)
+    found = np.empty((count, 3, 3))
+    for first in range(0, count, BLOCK):
         rows = slice(first, first + BLOCK)
-        mean = (left[rows] + right[rows]) / 2
-        joint = mean - trajectory.relative_covariance[rows] / 4
-        found[rows] = np.where(np.isnan(joint), mean, joint)
+        found[rows] = person_covariance(trajectory, rows)
     return found
 
 
@@ -102,8 +100,8 @@ def _heading(foot: FootTrajectory, falls: Footfalls) -> FloatArray:
     return _held(foot, falls, stood)
 
 
-def _mean_heading(left: FloatArray, right: FloatArray) -> FloatArray:
+def _mean_heading(left: FloatArray, right: FloatArray, shares: FloatArray) -> FloatArray:
     """Return the mean of two unwrapped headings (N,), whole turns apart or not."""
     turns = np.round((right[0] - left[0]) / (2 * np.pi)) * 2 * np.pi if len(left) else 0.0
-    mean: FloatArray = (left + right - turns) / 2
+    mean: FloatArray = shares[0] * left + shares[1] * (right - turns)
     return mean

@@ -10,8 +10,15 @@ import pytest
 
 from dualfoot_ros.calibration import SensorCalibration, Triad
 from dualfoot_ros.cli.main import main
-from dualfoot_ros.core import ConfigError, TrackerConfig
-from dualfoot_ros.evaluation import Align, EvaluationError, Options, RunOptions, run
+from dualfoot_ros.core import ONE_FOOT_STD, ConfigError, TrackerConfig
+from dualfoot_ros.evaluation import (
+    Align,
+    EvaluationError,
+    Options,
+    RunOptions,
+    person_track,
+    run,
+)
 from dualfoot_ros.evaluation.notes import field_notes
 from dualfoot_ros.inspection import FindingKind
 from dualfoot_ros.recording import (
@@ -158,3 +165,29 @@ def test_a_magnetic_heading_that_found_no_reference_says_so():
     assert "no reference was found in 40 stances" in note
     (usual,) = field_notes(counters, used=True)
     assert "40 stances until the field of the start was known" in usual
+
+
+def test_of_one_foot_alone_the_person_walks_the_whole_way_of_that_foot(walked):
+    both, alone = (run(walked, None, RunOptions(feet=feet)) for feet in ("both", "left"))
+    person, of_both = person_track(alone.tracked), person_track(both.tracked)
+    left = alone.tracked.left
+    assert np.array_equal(person.position, left.position)
+    assert person.walked_m[-1] == pytest.approx(of_both.walked_m[-1], rel=0.02)
+    assert np.ptp(person.heading) == pytest.approx(np.ptp(of_both.heading), abs=0.3)
+    variance = left.position_covariance[:, 0, 0] + ONE_FOOT_STD**2
+    assert np.allclose(person.covariance[:, 0, 0], variance)
+    figures = alone.to_dict()
+    assert figures["feet"]["passings"] == 0
+    largest = float(person.radius_95_m[-1])  # of the ellipse; that of the trust is of a circle
+    assert 0.8 * largest < figures["trust"]["radius_m"] <= largest
+
+
+def test_where_a_foot_is_silent_for_a_while_the_person_is_at_the_other_one(walked):
+    stamps = walked.right.stamp_ns
+    silent = (stamps > stamps[1500]) & (stamps < stamps[1900])
+    tracked = run(replace(walked, right=walked.right[~silent])).tracked
+    position, gone = person_track(tracked).position, ~tracked.right.present
+    assert 300 < np.sum(gone) < 500
+    assert np.array_equal(position[gone], tracked.left.position[gone])
+    middle = (tracked.left.position + tracked.right.position) / 2
+    assert np.array_equal(position[~gone], middle[~gone])

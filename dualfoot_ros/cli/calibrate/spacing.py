@@ -117,7 +117,10 @@ def _lines(name: str, fit: SpacingFit) -> Iterator[str]:
         yield f"  step width {fit.step_width_m:.3f} m"
     else:
         yield "  c0 and step width: not observable on this walk"
-    yield f"  the distance varies by {feet.scatter_m:.3f} m from step to step"
+    if math.isfinite(feet.scatter_m):
+        yield f"  the distance varies by {feet.scatter_m:.3f} m from step to step"
+    else:
+        yield "  how it varies from step to step: not observable, the walk is nowhere straight"
     yield f"  kappa {fit.kappa:.3f}, from step to step +- {fit.kappa_std:.3f}"
 
 

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..samples.series import FloatArray, IntArray
+from ..samples.series import BoolArray, FloatArray, IntArray
 from .events import FEET, EventKind
 from .trajectory import FootTrajectory, Trajectory, stance_bounds
 
@@ -49,6 +49,11 @@ class SwingPassings:
     def crossed_percent(self) -> float | None:
         """Share of the passings at which the feet are crossed, in percent."""
         return float(100.0 * np.mean(self.lateral_m < 0)) if len(self.index) else None
+
+    def where(self, wanted: BoolArray) -> SwingPassings:
+        """Return the passings at the epochs where ``wanted`` (N,) is true."""
+        kept = wanted[self.index]
+        return SwingPassings(self.index[kept], self.lateral_m[kept], self.distance_m[kept])
 
 
 def swing_passings(

@@ -41,12 +41,17 @@ def feet_report(
 ) -> FeetReport:
     """Summarise both feet; ``constrained`` are the epochs (K,) at which a constraint applied."""
     passed = swing_passings(left.position, right.position, left.stance, right.stance)
+    passed = passed.where(left.present & right.present)
     at = constrained if len(constrained) else passed.index
     apart = np.linalg.norm((left.position - right.position)[at], axis=1)
     error, crossed = None, None
     if truth is not None:
         error = statistics(apart - np.linalg.norm((truth[0] - truth[1])[at], axis=1))
-        crossed = swing_passings(*truth, left.stance, right.stance).crossed_percent
+        crossed = (
+            swing_passings(*truth, left.stance, right.stance)
+            .where(left.present & right.present)
+            .crossed_percent
+        )
     return FeetReport(
         moments="constraint" if len(constrained) else "passing",
         distance_m=statistics(apart),

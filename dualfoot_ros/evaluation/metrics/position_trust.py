@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import EventKind, FloatArray, IntArray, Trajectory, Trust, TrustTracker
+from ..person_shares import person_covariance, person_position, person_shares
 
 EVERY_S = 1.0
 
@@ -33,15 +34,13 @@ class TrustReport:
 
 def trust_series(trajectory: Trajectory, limit_m: float) -> tuple[IntArray, list[Trust]]:
     """Return the (K,) epochs, about one a second, and what the position was worth at each."""
-    left, right = trajectory.left, trajectory.right
-    position = 0.5 * (left.position + right.position)[:, :2]
+    position = person_position(trajectory)[:, :2]
     headings = trajectory.of_kind(EventKind.HEADING)
     known_ns = max((e.detected_ns for e in headings if not e.turn.joint), default=0)
-    stamps, tracker = left.stamp_ns, TrustTracker(limit_m)
+    stamps, tracker = trajectory.left.stamp_ns, TrustTracker(limit_m)
     wanted = np.arange(stamps[0], stamps[-1] + 1, round(EVERY_S * 1e9))
     epochs: IntArray = np.unique(np.append(np.searchsorted(stamps, wanted), len(stamps) - 1))
-    own = 0.5 * (left.position_covariance[epochs] + right.position_covariance[epochs])
-    covariance = (own - 0.25 * trajectory.relative_covariance[epochs])[:, :2, :2]
+    covariance = person_covariance(trajectory, epochs)[:, :2, :2]
     variance = mean_heading_variance(trajectory, epochs)
     found = []
     for n, k in enumerate(epochs.tolist()):
@@ -60,14 +59,15 @@ def mean_heading_variance(trajectory: Trajectory, epochs: IntArray) -> FloatArra
         np.sqrt(np.maximum(foot.attitude_covariance[epochs, 2, 2], 0.0))
         for foot in (trajectory.left, trajectory.right)
     )
-    variance: FloatArray = (0.5 * (left + right)) ** 2
+    a, b = person_shares(trajectory)[:, epochs]
+    variance: FloatArray = (a * left + b * right) ** 2
     return variance
 
 
 def trust_report(trajectory: Trajectory, limit_m: float) -> TrustReport:
     """Return how long the position could be trusted."""
     epochs, found = trust_series(trajectory, limit_m)
-    middle = 0.5 * (trajectory.left.position + trajectory.right.position)[epochs, :2]
+    middle = person_position(trajectory)[epochs, :2]
     way = np.append(0.0, np.cumsum(np.hypot(*np.diff(middle, axis=0).T)))
     lost = next((k for k, trust in enumerate(found) if not trust.trusted), None)
     start_ns = found[0].stamp_ns

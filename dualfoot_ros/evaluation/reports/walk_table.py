@@ -138,6 +138,8 @@ def _closure(run: Evaluation) -> Iterator[Row]:
 
 def _feet(run: Evaluation) -> Iterator[Row]:
     feet = run.feet
+    if feet.distance_m.count == 0:  # one foot alone, or no step
+        return
     crossed = f"{number(feet.crossed_percent, 1)} ({feet.crossed} of {feet.passings})"
     yield "feet crossed (% of passings)", "", "", crossed
     moments = f"at {feet.distance_m.count} {feet.moments}s"
@@ -161,7 +163,8 @@ def _gait(run: Evaluation) -> Iterator[Row]:
     for name, digits in SHOWN_GAIT.items():
         own = run.gait.parameters[name]
         feet = [
-            f"{number(s.mean, digits)} +- {number(s.std, digits)}" for s in (own.left, own.right)
+            f"{number(s.mean, digits)} +- {number(s.std, digits)}" if s.mean is not None else "-"
+            for s in (own.left, own.right)
         ]
         yield PARAMETERS[name], feet[0], feet[1], number(own.both.mean, digits)
 

@@ -1,5 +1,7 @@
 """Crossings and the distance between the feet."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -29,3 +31,12 @@ def test_without_constraints_the_distance_is_taken_where_the_feet_pass():
     assert report.moments == "passing"
     assert report.distance_m.count == report.passings == 11
     assert report.distance_error_m is None
+
+
+def test_a_foot_without_samples_passes_nobody():
+    left, right, stance = straight(strides=5)
+    gone = replace(foot(right, stance[1]), present=np.zeros(len(right.stamp_ns), dtype=bool))
+    empty = np.empty(0, dtype=np.int64)
+    report = feet_report(foot(left, stance[0]), gone, empty, (left.position, right.position))
+    assert report.distance_m.count == report.passings == report.crossed == 0
+    assert report.crossed_percent is report.truth_crossed_percent is None

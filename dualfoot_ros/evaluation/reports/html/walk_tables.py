@@ -33,7 +33,9 @@ def walk_tables(run: Evaluation, person: PersonTrack) -> dict[str, Any]:
 
 def _walk(run: Evaluation, person: PersonTrack) -> dict[str, FloatArray]:
     rows = thin(len(person.stamp_ns))
-    left, right = run.trajectory.left.position[rows], run.trajectory.right.position[rows]
+    feet = run.trajectory.left, run.trajectory.right
+    left, right = (foot.position[rows] for foot in feet)
+    both = feet[0].present[rows] & feet[1].present[rows]
     longer, shorter, angle = (axis[rows] for axis in person.axes)
     columns = {
         "time": seconds(person.stamp_ns, int(person.stamp_ns[0]))[rows],
@@ -46,7 +48,7 @@ def _walk(run: Evaluation, person: PersonTrack) -> dict[str, FloatArray]:
         "major": np.sqrt(CHI2_95_PLANE * np.maximum(longer, 0.0)),
         "minor": np.sqrt(CHI2_95_PLANE * shorter),
         "angle": np.degrees(angle),
-        "apart": np.linalg.norm(left - right, axis=1),
+        "apart": np.where(both, np.linalg.norm(left - right, axis=1), np.nan),
     }
     for foot, points in zip(FEET, (left, right), strict=True):
         columns |= {f"{foot}_{axis}": points[:, i] for i, axis in enumerate("xyz")}
@@ -98,7 +100,8 @@ def _moments(run: Evaluation, time: FloatArray) -> Any:
     left, right = run.trajectory.left, run.trajectory.right
     at = constraint_epochs(run.trajectory)
     if len(at) == 0:
-        at = swing_passings(left.position, right.position, left.stance, right.stance).index
+        passed = swing_passings(left.position, right.position, left.stance, right.stance)
+        at = passed.where(left.present & right.present).index
     at = at[thin(len(at), 2000)]
     columns = {
         "time": time[at],

@@ -39,7 +39,9 @@ def draw_distance(runs: Mapping[str, Evaluation], path: Path, title: str) -> Pat
 def _panel(axis: Axes, run: Evaluation) -> None:
     left, right = run.trajectory.left, run.trajectory.right
     time = seconds(left.stamp_ns, int(left.stamp_ns[0]))
+    both = left.present & right.present
     apart = np.linalg.norm(left.position - right.position, axis=1)
+    apart[~both] = np.nan
     if run.truth is not None:
         true = np.linalg.norm(run.truth[0].position - run.truth[1].position, axis=1)
         _curve(axis, time, true, TRUTH, "truth")
@@ -49,6 +51,7 @@ def _panel(axis: Axes, run: Evaluation) -> None:
     refused = constraint_epochs(run.trajectory, accepted=False)
     if len(applied) + len(refused) == 0:
         passed = swing_passings(left.position, right.position, left.stance, right.stance)
+        passed = passed.where(both)
         axis.plot(
             time[passed.index], passed.distance_m, ".", color=GREEN, ms=dot, label="feet pass"
         )

@@ -1,5 +1,6 @@
 """What tests of several parts need: the real walks, processes, a clock of one's own."""
 
+import gc
 import os
 import subprocess
 import sys
@@ -13,13 +14,18 @@ from hypothesis import settings
 from own_time import OwnTime, put_in_place
 from processes import Session, environment
 
-# The same examples at every run, so that a change is judged by itself.  To look for new ones:
-# pytest --hypothesis-profile=explore
-settings.register_profile("steady", derandomize=True, deadline=None)
+# The same examples at every run, so that a change is judged by itself; 50, for the time they take.
+# To look for new ones: pytest --hypothesis-profile=explore
+settings.register_profile("steady", derandomize=True, deadline=None, max_examples=50)
 settings.register_profile("explore", deadline=None, max_examples=1000)
 settings.load_profile("steady")
 
 ROOT = Path(__file__).resolve().parents[1]
+
+
+def pytest_collection_finish():
+    """Leave what was collected out of every later search for garbage."""
+    gc.freeze()
 
 
 @pytest.fixture(scope="session")

@@ -118,7 +118,7 @@ def test_where_no_cache_can_be_written_the_kernel_is_compiled_all_the_same(nowhe
 def test_numba_has_the_bits_where_there_is_no_compiler(monkeypatch, tmp_path):
     """Two entries stand for all: the functions are the same for each."""
     pytest.importorskip("numba")
-    few = ("set_flags", "correct", "turn")
+    few = ("set_flags", "closest", "turn")
     monkeypatch.setattr(compiled_kernel, "ENTRY_KINDS", {name: ENTRY_KINDS[name] for name in few})
     monkeypatch.setattr(compiled_kernel, "ENTRIES", few)
     made = compiled_kernel._from_numba(tmp_path)

@@ -19,6 +19,7 @@ from .errors import (
 from .groups import AlignmentConfig, IncrementsConfig, NoiseConfig
 from .parameters import Parameters, ParameterSpec, check, parameter
 from .person import (
+    LOST_HEADING_STD,
     PersonEstimate,
     PersonTracker,
     SmoothedPerson,

@@ -3,9 +3,10 @@
 from .person import PersonEstimate, PersonTracker
 from .smoothing import SmoothedPerson, Smoother
 from .steps import Step, StepTracker
-from .trust import Trust, TrustTracker
+from .trust import LOST_HEADING_STD, Trust, TrustTracker
 
 __all__ = [
+    "LOST_HEADING_STD",
     "PersonEstimate",
     "PersonTracker",
     "SmoothedPerson",

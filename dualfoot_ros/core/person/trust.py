@@ -26,7 +26,7 @@ PACE_S = 10.0  # over which the pace is taken
 SLOW = 0.2  # m/s; who is slower stands
 USUAL_PACE = 1.2  # m/s, before anybody has walked
 PRECISION_M = 0.1  # of a way that is foretold
-LOST_STD = 0.5  # rad, standard deviation of a heading beyond which it is lost
+LOST_HEADING_STD = 0.5  # rad, standard deviation of a heading beyond which it is lost
 FARTHEST_M = 1.0e5  # beyond this nothing is foretold
 
 
@@ -62,7 +62,7 @@ class Trust:
     @property
     def heading_lost(self) -> bool:
         """Whether the heading was known and is so no more."""
-        return self.heading_known and self.heading_std > LOST_STD
+        return self.heading_known and self.heading_std > LOST_HEADING_STD
 
 
 class TrustTracker:

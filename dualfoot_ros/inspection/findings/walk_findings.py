@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 
-from ...core import Trajectory, stance_passings
+from ...core import LOST_HEADING_STD, Trajectory, stance_passings
 from ..lateral_spacing import SideBySide, side_by_side
 from ..walk_facts import WalkFacts, walk_facts
 from .feet_findings import (
@@ -72,3 +72,13 @@ def walk_findings(trajectory: Trajectory) -> Iterator[Finding]:
 def coupled_findings(trajectory: Trajectory) -> Iterator[Finding]:
     """Yield the findings on a walk whose tracks a method holds together."""
     yield from find_feet_apart(walk_facts(trajectory))
+    yield from find_lost_heading(trajectory)
+
+
+def find_lost_heading(trajectory: Trajectory) -> Iterator[Finding]:
+    """Yield a finding when the heading is lost at the end; nothing without covariances."""
+    there = [foot for foot in (trajectory.left, trajectory.right) if foot.present[-1]]
+    stds = [math.sqrt(foot.attitude_covariance[-1][2, 2]) for foot in there]
+    std = sum(stds) / max(1, len(stds))
+    if std > LOST_HEADING_STD:
+        yield lost_heading(std)

@@ -96,6 +96,7 @@ __all__ = [
     "FORWARD_LEFT_UP",
     "GROUPS",
     "IDENTITY",
+    "LOST_HEADING_STD",
     "METHODS",
     "MID_STANCE",
     "ONE_FOOT_STD",

@@ -18,7 +18,7 @@ from .cache import READY, usable_cache
 from .entries import ENTRY_KINDS, Kind
 from .numba_cache import keep_in
 from .same_bits import same_bits
-from .shared_library import Functions, can_compile, library_path, load_library, write_library
+from .shared_library import Functions, can_compile, library_path, load_library, make_library
 
 
 @cache
@@ -55,20 +55,13 @@ def _from_library(directory: Path) -> Functions | None:
     """
     path = library_path(directory)
     try:
-        if not path.exists() and can_compile():
-            return _new_library(path)
+        if path.exists() or not can_compile():
+            return load_library(path, ENTRY_KINDS)
+        source = library_source(kernel_functions(), ENTRY_KINDS)
+        functions = make_library(path, source, ENTRY_KINDS, same_bits)
+        if functions is None:
+            path.touch()
     except OSError:  # a full disk, a folder that has gone
-        return None
-    return load_library(path, ENTRY_KINDS)
-
-
-def _new_library(path: Path) -> Functions | None:
-    """Make the library and look whether its bits are those of the kernel in Python."""
-    made = write_library(path, library_source(kernel_functions(), ENTRY_KINDS))
-    functions = load_library(path, ENTRY_KINDS) if made else None
-    if functions is None or not same_bits(functions):
-        path.unlink(missing_ok=True)  # and not written over: it is in the memory of this process
-        path.touch()
         return None
     return functions
 

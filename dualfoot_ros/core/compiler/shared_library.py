@@ -21,6 +21,7 @@ COMPILER = "cc"
 PROCESSOR = Path("/proc/cpuinfo")  # of Linux alone
 STANDARD = ("-ffp-contract=off", "-fno-math-errno", "-shared", "-fPIC")
 FAST = ("-O3", "-march=native")
+PLAIN = (("-O2",), ("-O1",))
 NO_FUSING = ("-mno-fma", "-mno-fma4", "-mno-avx512f")
 """gcc 12 takes a product and a sum as one operation, of another last bit, whatever it was told."""
 
@@ -47,24 +48,34 @@ def can_compile() -> bool:
     return PROCESSOR.exists() and bool(shutil.which(COMPILER))
 
 
-def write_library(path: Path, source: str) -> bool:
-    """Write the library of a ``source`` in C; return whether the compiler could make it."""
+def make_library(
+    path: Path, source: str, entries: Mapping[str, Entry], is_good: Callable[[Functions], bool]
+) -> Functions | None:
+    """Make the library of a ``source`` in C; return its ``entries`` by name.
+
+    It is at ``path`` once ``is_good`` has said that its entries are.  None where no options of the
+    compiler give such a library.
+    """
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
-        code, made = Path(folder) / "kernel.c", Path(folder) / path.name
+        code = Path(folder) / "kernel.c"
         code.write_text(source, encoding="ascii")
-        for options in _options():
+        for k, options in enumerate(_options()):
+            made = Path(folder) / f"{k}.so"  # each has its own name: a loaded one stays loaded
             command = [COMPILER, *options, *STANDARD, "-o", str(made), str(code), "-lm"]
-            if subprocess.run(command, check=False, capture_output=True).returncode == 0:
+            if subprocess.run(command, check=False, capture_output=True).returncode:
+                continue
+            functions = load_library(made, entries)
+            if functions is not None and is_good(functions):
                 made.replace(path)
-                return True
-    return False
+                return functions
+    return None
 
 
 def _options() -> tuple[tuple[str, ...], ...]:
-    """Return options of the compiler, the best first; not every one knows all of them."""
+    """Return options of the compiler, the fastest first; not every one knows all of them."""
     if platform.machine() in {"x86_64", "AMD64"}:
-        return (*FAST, *NO_FUSING), ("-O2",)
-    return FAST, ("-O2",)
+        return (*FAST, *NO_FUSING), *PLAIN
+    return FAST, *PLAIN
 
 
 def load_library(path: Path, entries: Mapping[str, Entry]) -> Functions | None:

@@ -11,7 +11,7 @@ from dualfoot_ros.core.compiler import shared_library
 from dualfoot_ros.core.compiler.c_library import library_source
 from dualfoot_ros.core.compiler.entries import Entry, Kind
 from dualfoot_ros.core.compiler.kernel_function import TranslationError
-from dualfoot_ros.core.compiler.shared_library import load_library, write_library
+from dualfoot_ros.core.compiler.shared_library import make_library
 
 LIMIT = 0.7
 W, N, ROWS, INTEGER, X = Kind.REALS, Kind.INTEGERS, Kind.ROWS, Kind.INTEGER, Kind.REAL
@@ -131,8 +131,7 @@ def in_c(tmp_path_factory):
         pytest.skip("needs a C compiler (cc), on Linux")
     path = tmp_path_factory.mktemp("library") / "library.so"
     functions = {each.__name__: each for each in FUNCTIONS}
-    assert write_library(path, library_source(functions, ENTRIES))
-    return load_library(path, ENTRIES)
+    return make_library(path, library_source(functions, ENTRIES), ENTRIES, bool)
 
 
 def agrees(compiled, function, arrays, *numbers):

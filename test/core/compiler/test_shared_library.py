@@ -11,7 +11,7 @@ import pytest
 from dualfoot_ros.core.compiler import shared_library
 from dualfoot_ros.core.compiler.c_library import library_source
 from dualfoot_ros.core.compiler.entries import ENTRY_KINDS
-from dualfoot_ros.core.compiler.shared_library import library_path, load_library, write_library
+from dualfoot_ros.core.compiler.shared_library import library_path, load_library, make_library
 from dualfoot_ros.core.kernel import ENTRIES, interpreted, kernel_functions
 from dualfoot_ros.core.kernel import layout as lay
 
@@ -33,7 +33,7 @@ def source():
 def file(source, tmp_path_factory):
     """Return the library of these entries."""
     path = library_path(tmp_path_factory.mktemp("library"))
-    assert write_library(path, source)
+    assert set(make_library(path, source, FEW, bool)) == set(FEW)
     assert [each.name for each in path.parent.iterdir()] == [path.name]
     return path
 
@@ -93,15 +93,22 @@ def test_another_processor_has_another_library(tmp_path, monkeypatch):
 def test_a_compiler_that_does_not_know_the_best_options_gets_others(source, tmp_path, monkeypatch):
     monkeypatch.setattr(shared_library, "FAST", ("--no-such-option",))
     path = library_path(tmp_path)
-    assert write_library(path, source)
+    assert make_library(path, source, FEW, bool)
     assert load_library(path, FEW)
+
+
+def test_options_that_give_other_bits_are_followed_by_others(source, tmp_path):
+    path, looked = library_path(tmp_path), []
+    assert make_library(path, source, FEW, lambda made: looked.append(made) or len(looked) == 3)
+    assert len(looked) == 3
+    assert [each.name for each in tmp_path.iterdir()] == [path.name]
 
 
 def test_where_nothing_can_be_made_numba_is_asked_and_the_next_time_at_once(
     few_entries, tmp_path, monkeypatch
 ):
-    made, write = [], compiled_kernel.write_library
-    monkeypatch.setattr(compiled_kernel, "write_library", lambda *a: made.append(1) or write(*a))
+    made, make = [], compiled_kernel.make_library
+    monkeypatch.setattr(compiled_kernel, "make_library", lambda *a: made.append(1) or make(*a))
     monkeypatch.setattr(shared_library, "COMPILER", shutil.which("false"))
     assert compiled_kernel._from_library(tmp_path) is None
     assert compiled_kernel._from_library(tmp_path) is None
@@ -112,6 +119,7 @@ def test_a_library_with_other_bits_is_not_used_now_or_later(few_entries, tmp_pat
     monkeypatch.setattr(compiled_kernel, "same_bits", lambda _functions: False)
     assert compiled_kernel._from_library(tmp_path) is None
     assert library_path(tmp_path).read_bytes() == b""
+    assert compiled_kernel._from_library(tmp_path) is None
 
 
 @pytest.mark.parametrize("lacks", ["a compiler", "Linux"])

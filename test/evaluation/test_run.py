@@ -178,6 +178,10 @@ def test_of_one_foot_alone_the_person_walks_the_whole_way_of_that_foot(walked):
     assert np.allclose(person.covariance[:, 0, 0], variance)
     figures = alone.to_dict()
     assert figures["feet"]["passings"] == 0
+    gap = figures["closure"]
+    assert gap["right_m"] is None and gap["right_percent"] is None
+    assert gap["mean_m"] == gap["midpoint_m"] == gap["left_m"] < 5.0
+    assert gap["mean_percent"] == gap["left_percent"]
     largest = float(person.radius_95_m[-1])  # of the ellipse; that of the trust is of a circle
     assert 0.8 * largest < figures["trust"]["radius_m"] <= largest
 

@@ -17,10 +17,11 @@ class Closure:
 
     ``midpoint_*`` is the gap of the point midway between the feet, ``mean_m`` the mean of the
     gaps of the feet (never smaller).  Percent are of the distance walked (see :func:`closure`).
+    A foot without a stance has None, and the others are of the foot that has some.
     """
 
-    left_m: float
-    right_m: float
+    left_m: float | None
+    right_m: float | None
     mean_m: float
     midpoint_m: float
     left_percent: float | None
@@ -36,27 +37,35 @@ def closure(
 
     Percent are of ``length_m`` where it is known, otherwise of the estimated way of each foot.
     """
-    falls_left, falls_right = Footfalls.of(left), Footfalls.of(right)
-    if min(len(falls_left), len(falls_right)) == 0:
+    gaps = [_gap(foot) for foot in (left, right)]
+    there = [gap for gap in gaps if gap is not None]
+    if not there:
         return None
-    gap_left = _gap(falls_left.mean(left.position))
-    gap_right = _gap(falls_right.mean(right.position))
-    size_left, size_right = float(np.linalg.norm(gap_left)), float(np.linalg.norm(gap_right))
-    mean, midpoint = (size_left + size_right) / 2, float(np.linalg.norm(gap_left + gap_right)) / 2
-    way_left, way_right = length_m or left.distance_m, length_m or right.distance_m
-    way = (way_left + way_right) / 2
+    sizes = [None if gap is None else float(np.linalg.norm(gap)) for gap in gaps]
+    ways = [length_m or foot.distance_m for foot in (left, right)]
+    known = [(size, way) for size, way in zip(sizes, ways, strict=True) if size is not None]
+    mean, way = (sum(values) / len(known) for values in zip(*known, strict=True))
+    midpoint = float(np.linalg.norm(sum(there))) / len(there)
+    of_left, of_right = (
+        None if size is None else percent(size, way) for size, way in zip(sizes, ways, strict=True)
+    )
     return Closure(
-        left_m=size_left,
-        right_m=size_right,
+        left_m=sizes[0],
+        right_m=sizes[1],
         mean_m=mean,
         midpoint_m=midpoint,
-        left_percent=percent(size_left, way_left),
-        right_percent=percent(size_right, way_right),
+        left_percent=of_left,
+        right_percent=of_right,
         mean_percent=percent(mean, way),
         midpoint_percent=percent(midpoint, way),
     )
 
 
-def _gap(stood: FloatArray) -> FloatArray:
+def _gap(foot: FootTrajectory) -> FloatArray | None:
+    """Return the way (2,) m from the first to the last stance of a foot, if it has any."""
+    falls = Footfalls.of(foot)
+    if len(falls) == 0:
+        return None
+    stood = falls.mean(foot.position)
     gap: FloatArray = (stood[-1] - stood[0])[:2]
     return gap

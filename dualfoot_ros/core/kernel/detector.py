@@ -60,6 +60,7 @@ from .layout import (
 LOW, HIGH = 0.1, 0.6  # quantiles of the statistic that are of stances and of swings
 FIRST, RENEW = 48, 12  # values to the first threshold, and from one to the next
 CERTAIN_SWING = 1e4  # statistic that no standing foot has for long
+NO_STOP = 1e5  # statistic that no foot has in a stop
 CLEAR = 0.25  # share of the threshold below which a short stance counts
 
 
@@ -118,12 +119,15 @@ def follow(w, n, foot, statistic):
     """Take a statistic into the history of a walking foot, and renew the threshold.
 
     A foot is quieter in a stop than in any stance of a walk, so what a stop adds to a stance is
-    left out: a threshold learnt from it would miss the stances after it.
+    left out: a threshold learnt from it would miss the stances after it.  A stop in which the foot
+    moves is none: the threshold that says so was learnt from spikes, and is learnt anew.
     """
     d = D_FOOT + foot * D_STRIDE
     o = N_FOOT + foot * N_STRIDE
     if n[o + N_PHASE] == STANCE and n[N_EPOCH] - n[o + N_START] >= n[N_STANDS]:
-        return
+        if statistic < NO_STOP:
+            return
+        forget_walk(w, d)
     if statistic > CERTAIN_SWING:
         w[d + D_ACTIVE] = n[N_WALKING]
     if w[d + D_ACTIVE] <= 0.0:
@@ -146,6 +150,13 @@ def follow(w, n, foot, statistic):
         low = quantile(w, d, LOW * known)
         high = quantile(w, d, HIGH * known)
         w[d + D_THRESHOLD] = w[D_EDGES + (low + high) // 2]
+
+
+def forget_walk(w, d):
+    """Forget the history of a foot, and go back to the threshold of the start."""
+    for k in range(D_THRESHOLD):
+        w[d + k] = 0.0
+    w[d + D_THRESHOLD] = w[C_GLRT_THRESHOLD]
 
 
 def quantile(w, d, rank):

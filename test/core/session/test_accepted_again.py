@@ -152,3 +152,26 @@ def test_on_a_sound_walk_no_foot_is_lost_and_every_constraint_fits(method):
         result = whole_track(seed, method)
         assert not result.of_kind(EventKind.LOST)
         assert all(event.reason is not Reason.DID_NOT_FIT for event in result.events)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.3])
+@pytest.mark.parametrize("seed", [0, 3])
+def test_a_threshold_that_was_learnt_from_dense_spikes_is_learnt_anew(seed, share):
+    """It took every stance and swing for one stop, and no stance was found any more."""
+
+    def dense(values, rng):
+        hit = rng.random(values.shape) < share
+        values += hit * rng.choice([-100.0, 100.0], values.shape) * UNITS
+
+    whole, count = walk(seed=seed), round(10.0 * RATE)
+    start = len(whole) // 3
+    values = whole.values.copy()
+    dense(values[start : start + count], np.random.default_rng(seed))
+    result = tracked(Pairs(whole.stamps, values), "zupt")
+    after_ns = whole.stamps[start + count] + 3 * 10**9
+    for foot in ("left", "right"):
+        expected, found = (starts(each, foot) for each in (whole_track(seed, "zupt"), result))
+        expected = expected[expected > after_ns]
+        assert len(expected) > 10
+        apart = [np.abs(found - stamp).min() for stamp in expected]
+        assert max(apart) < NEAR_NS

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import ctypes
 import threading
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import cache
+from typing import Any
 
 from ...core import METHODS, DualFootTracker, FloatArray
 from ...inspection import (
@@ -112,8 +115,11 @@ class StreamCheck:
             each.checked_ns = newest_ns
 
         def inspect() -> None:
-            for each, stretch in taken:
+            while taken:
+                each, stretch = taken.pop(0)
                 each.inspect(stretch)
+                del stretch
+                give_back_memory()
 
         self._worker = threading.Thread(target=inspect, name="stream_check")
         self._worker.start()
@@ -124,3 +130,23 @@ class StreamCheck:
         if self._tracker.engine != "compiled" or one_shoe:
             return ()
         return track_findings(stretch, self._tracker.config)
+
+
+def give_back_memory() -> None:
+    """Give free memory back to the system, where the allocator is that of glibc.
+
+    It keeps what a thread has freed, in pieces, for the threads after it: a ``fusion`` that
+    inspects its last minute again and again held 30 MB more after ten minutes.  Takes some ms.
+    """
+    trim = _trim()
+    if trim is not None:
+        trim(0)
+
+
+@cache
+def _trim() -> Any:
+    """Return the function of glibc that does it; None where there is none."""
+    try:
+        return ctypes.CDLL(None).malloc_trim
+    except (AttributeError, OSError, TypeError):
+        return None

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import FEET, TrackerConfig
+from dualfoot_ros.nodes.inputs import stream_check
 from dualfoot_ros.nodes.inputs.stream_check import StreamCheck
 from dualfoot_ros.nodes.ros.status import Status
 from dualfoot_ros.simulation import WalkConfig, simulate
@@ -114,3 +115,16 @@ def test_a_reset_forgets_the_samples(walk):
     check.wait()
     check.describe(status)
     assert status.findings == []
+
+
+def test_what_an_inspection_has_freed_goes_back_to_the_system(walk, monkeypatch):
+    given_back = []
+    monkeypatch.setattr(stream_check, "give_back_memory", lambda: given_back.append(1))
+    run(walk, 20.0)
+    assert len(given_back) > 2
+
+
+def test_another_allocator_than_that_of_glibc_is_left_alone(monkeypatch):
+    stream_check.give_back_memory()
+    monkeypatch.setattr(stream_check.ctypes, "CDLL", lambda _name: object())
+    assert stream_check._trim.__wrapped__() is None

@@ -12,17 +12,34 @@ second (MTi reference manual 4.3, DOT user manual 4.2).  The increments have the
 
 from __future__ import annotations
 
-import struct
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ...core import Increments, Refusal, Vector, parameter
+from ...core import Refusal, Vector, parameter
 from ..sample import Sample, scaled
 from .decoder import FieldConfig, PacketCounter, append_if_finite
-from .delta import OutputInterval, per_second, rotation_vector
+from .delta import OutputInterval
 from .framing import BAD_CHECKSUM, NEED_MORE, NO_FRAME, HeaderFramer
 from .xbus_apart import ApartHalves, Turn
+from .xbus_items import (
+    DELTA_Q,
+    KIND,
+    MAGNETIC_FIELD,
+    MOTION,
+    PACKET_COUNTER,
+    PRECISION,
+    SAMPLE_TIME_FINE,
+    SIZES,
+    TEMPERATURE,
+    Items,
+    items_of,
+    read_force,
+    read_increments,
+    read_motion,
+    read_rate,
+    read_reals,
+    read_whole,
+)
 from .xbus_legacy import read_mtdata
 
 PREAMBLE = 0xFA
@@ -32,25 +49,7 @@ MTDATA2, MTDATA = 0x36, 0x32
 EXTENDED = 0xFF
 MAX_FRAME = 1024
 
-PACKET_COUNTER, SAMPLE_TIME_FINE, TEMPERATURE = 0x1020, 0x1060, 0x0810
-ACCELERATION, ACCELERATION_HR = 0x4020, 0x4040
-RATE_OF_TURN, RATE_OF_TURN_HR = 0x8020, 0x8040
-MAGNETIC_FIELD = 0xC020
-DELTA_V, DELTA_Q = 0x4010, 0x8030
-MOTION = {  # number of values
-    ACCELERATION: 3,
-    ACCELERATION_HR: 3,
-    RATE_OF_TURN: 3,
-    RATE_OF_TURN_HR: 3,
-    DELTA_V: 3,
-    DELTA_Q: 4,
-}
-KIND, PRECISION = 0xFFF0, 0x3
-SIZES = (4, 4, 6, 8)  # bytes of a float, of fixed-point 12.20 and 16.32, of a double
 TICK_NS = 100_000  # SampleTimeFine counts at 10 kHz
-
-Items = dict[int, tuple[int, bytes]]
-Motion = tuple[tuple[float, ...], tuple[float, ...], Increments | None]
 
 
 @dataclass(frozen=True)
@@ -122,14 +121,14 @@ class XbusDecoder:
 
     def _decode(self, content: bytes, arrival_ns: int, samples: list[Sample]) -> None:
         items = {key & KIND: (key & PRECISION, value) for key, value in items_of(content)}
-        counter = _read_whole(items, PACKET_COUNTER, 2)
+        counter = read_whole(items, PACKET_COUNTER, 2)
         if counter is not None:
             self._packets.count(counter)
-        self._temperature = _take_first(_read_reals(items, TEMPERATURE, 1), self._temperature)
-        ticks, field = _read_whole(items, SAMPLE_TIME_FINE, 4), self._field(items)
+        self._temperature = _take_first(read_reals(items, TEMPERATURE, 1), self._temperature)
+        ticks, field = read_whole(items, SAMPLE_TIME_FINE, 4), self._field(items)
         if ticks is not None and DELTA_Q in items:  # messages apart come between
             self._interval.add(ticks)
-        motion = _read_increments(items, self._interval.seconds) or _read_motion(items)
+        motion = read_increments(items, self._interval.seconds) or read_motion(items)
         if motion is None:
             self._join_half(items, ticks, counter, arrival_ns, samples)
             return
@@ -146,7 +145,7 @@ class XbusDecoder:
         samples: list[Sample],
     ) -> None:
         """Take a message with one half of a sample."""
-        force, (rate, kind) = _read_force(items), _read_rate(items)
+        force, (rate, kind) = read_force(items), read_rate(items)
         if ticks is None or (rate is None and force is None):
             self.counters[Refusal.INCOMPLETE] += 1
         elif rate is not None:
@@ -184,7 +183,7 @@ class XbusDecoder:
         append_if_finite(self.counters, samples, sample)
 
     def _field(self, items: Items) -> Vector | None:
-        field = _read_reals(items, MAGNETIC_FIELD, 3) if self._field_unit else None
+        field = read_reals(items, MAGNETIC_FIELD, 3) if self._field_unit else None
         return None if field is None else scaled(field, self._field_unit)
 
 
@@ -224,86 +223,12 @@ def no_motion(frame: bytes, in_step: bool) -> bool:
     )
 
 
-def items_of(content: bytes) -> Iterator[tuple[int, bytes]]:
-    """Yield identifier and value of each item of the data of an MTData2 message."""
-    at = 0
-    while at + 3 <= len(content):
-        size = content[at + 2]
-        yield int.from_bytes(content[at : at + 2], "big"), content[at + 3 : at + 3 + size]
-        at += 3 + size
-
-
 def _is_row_of_items(content: bytes) -> bool:
     return sum(3 + len(value) for _, value in items_of(content)) == len(content)
 
 
 def _cut_content(frame: bytes | bytearray) -> bytes:
     return bytes(frame[6:-1] if frame[3] == EXTENDED else frame[4:-1])
-
-
-def _read_increments(items: Items, interval_s: float | None) -> Motion | None:
-    """Return force and rate of the increments; None without them or before the interval is known.
-
-    DeltaV needs no turning back: the maker's acceleration is DeltaV per second.
-    """
-    quaternion, push = _read_reals(items, DELTA_Q, 4), _read_reals(items, DELTA_V, 3)
-    if quaternion is None or push is None or interval_s is None:
-        return None
-    rotation = rotation_vector(quaternion)
-    if rotation is None:
-        return None
-    force = scaled(push, 1.0 / interval_s)
-    return force, per_second(rotation, interval_s), Increments.COMPENSATED
-
-
-def _read_motion(items: Items) -> Motion | None:
-    """Return force and rate, calibrated where they are sent, else of the high-rate outputs."""
-    calibrated = _read_reals(items, ACCELERATION, 3), _read_reals(items, RATE_OF_TURN, 3)
-    high = _read_reals(items, ACCELERATION_HR, 3), _read_reals(items, RATE_OF_TURN_HR, 3)
-    force, rate = calibrated[0] or high[0], calibrated[1] or high[1]
-    if force is None or rate is None:
-        return None
-    if (force, rate) == calibrated:
-        return force, rate, Increments.COMPENSATED
-    return force, rate, Increments.SAMPLED if (force, rate) == high else None
-
-
-def _read_force(items: Items) -> tuple[float, ...] | None:
-    return _read_reals(items, ACCELERATION, 3) or _read_reals(items, ACCELERATION_HR, 3)
-
-
-def _read_rate(items: Items) -> tuple[tuple[float, ...] | None, Increments | None]:
-    """Return a rate without a force, and what it is beside one interpolated to its stamp.
-
-    That force is no increment any more, so only samples of the signal keep their kind.
-    """
-    high = _read_reals(items, RATE_OF_TURN_HR, 3)
-    rate = _read_reals(items, RATE_OF_TURN, 3) or high
-    return rate, Increments.SAMPLED if rate is not None and rate is high else None
-
-
-def _read_whole(items: Items, key: int, size: int) -> int | None:
-    _, value = items.get(key, (0, b""))
-    return int.from_bytes(value, "big") if len(value) == size else None
-
-
-def _read_reals(items: Items, key: int, count: int) -> tuple[float, ...] | None:
-    """Return the ``count`` numbers of an item, or None where it is absent or too short."""
-    if key not in items:
-        return None
-    precision, value = items[key]
-    size = SIZES[precision]
-    if len(value) != count * size:
-        return None
-    return tuple(_read_real(precision, value[k : k + size]) for k in range(0, len(value), size))
-
-
-def _read_real(precision: int, value: bytes) -> float:
-    if precision == 1:
-        return int.from_bytes(value, "big", signed=True) / (1 << 20)
-    if precision == 2:  # the fraction, 32 bits, is sent before the whole part, 16 bits
-        return int.from_bytes(value[4:] + value[:4], "big", signed=True) / (1 << 32)
-    return float(struct.unpack(">f" if precision == 0 else ">d", value)[0])
 
 
 def _take_first(values: tuple[float, ...] | None, otherwise: float | None) -> float | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,7 +32,7 @@ from .time_sync import TimeSyncNode
 if TYPE_CHECKING:
     from .playback.recorder import RecorderNode
 
-QUIET_S = 0.5  # without a result after the end of the playback: the last one has come
+QUIET_S = 0.5  # without progress after the end of the playback: the last result has come
 Sensors = ReplayNode | ImuAdapterNode
 PROGRAM = Program(
     "bringup",
@@ -78,7 +78,8 @@ def _add_nodes(
     external = Parameter("sync", Parameter.Type.STRING, "external")
     fusion = FusionNode(**_add_parameters(options, external))
     nodes.append(fusion)
-    nodes.append(TimeSyncNode(**options))
+    pairing = TimeSyncNode(**options)
+    nodes.append(pairing)
     recorder: RecorderNode | None = None
     if settings.record:
         recorder = _make_recorder(Path(settings.record).expanduser(), fusion, options)
@@ -87,7 +88,14 @@ def _add_nodes(
     for sensor in _make_sensors(settings, nodes[0].get_namespace().rstrip("/"), options):
         sensors.append(sensor)
         nodes.append(sensor)
-    return _when_over(sensors, fusion, recorder) if sensors else None
+    if not sensors:
+        return None
+
+    def progress() -> tuple[int, ...]:
+        given = fusion.outputs.published, 0 if recorder is None else recorder.recorded
+        return pairing.streams.received, fusion.streams.received, *given
+
+    return _when_over(sensors, fusion, progress)
 
 
 def _make_sensors(
@@ -139,29 +147,29 @@ def _make_recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> R
 
 
 def _when_over(
-    sensors: Sequence[Sensors], fusion: FusionNode, recorder: RecorderNode | None
+    sensors: Sequence[Sensors], node: Node, progress: Callable[[], tuple[int, ...]]
 ) -> Future:
     """Return a future that is done when all is played and the last results have come.
 
-    So it is when neither fusion has published nor the recorder, which may be behind, has written
-    anything for ``QUIET_S``.
+    So it is when ``progress``, counts of what nodes have taken and given, has not changed for
+    ``QUIET_S``: before the alignment nothing is given, and a recorder may be behind.
 
     It fails with the first sensor that does.
     """
     done: Future = Future()
-    before: tuple[bool, int, int] | None = None
+    before: tuple[int, ...] = ()
 
     def look() -> None:
         nonlocal before
         over, failed = _check_ends(sensors)
-        now = (over, fusion.outputs.published, 0 if recorder is None else recorder.recorded)
+        now = progress() if over else ()
         if failed is not None:
             done.set_exception(failed)
         elif over and now == before:
             done.set_result(True)
         before = now
 
-    fusion.create_timer(QUIET_S, look, clock=Clock(clock_type=ClockType.STEADY_TIME))
+    node.create_timer(QUIET_S, look, clock=Clock(clock_type=ClockType.STEADY_TIME))
     return done
 
 

@@ -1,10 +1,12 @@
 import re
 import signal
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from drivers import frames
+from rclpy.task import Future
 
 from dualfoot_ros.nodes import bringup, fusion
 from dualfoot_ros.recording import list_topics, read_bag
@@ -25,6 +27,23 @@ def test_bringup_plays_a_bag_records_what_comes_of_it_and_ends(program, short_ba
     assert topics["/me/left/odometry"].messages > 0.5 * played
     assert topics["/me/odometry"].messages == topics["/me/left/odometry"].messages
     assert topics["/me/fusion/events"].messages > 10
+
+
+def test_it_goes_on_while_samples_are_taken_though_nothing_is_given_yet():
+    """On a busy machine the bag may be over long before the alignment."""
+    looks, played = [], Future()
+    node = SimpleNamespace(create_timer=lambda _period, look, clock: looks.append(look))
+    taken = iter([(1, 0), (300, 0), (500, 0), (500, 7), (500, 7)])
+    done = bringup._when_over([SimpleNamespace(done=played)], node, lambda: next(taken))
+    (look,) = looks
+    look()
+    assert not done.done()  # still playing: nobody asks what is taken
+    played.set_result(True)
+    for _ in range(4):
+        look()
+        assert not done.done()
+    look()
+    assert done.done() and done.exception() is None
 
 
 def test_a_recording_that_is_interrupted_is_a_whole_bag(program, walk_bag, tmp_path):

@@ -68,7 +68,8 @@ def test_fusion_logs_once_aligned_that_nothing_says_what_the_samples_are(
     unknown = write_bag(tmp_path / "unknown", replace(whole, **feet))
     running = program(
         "bringup", "--ros-args", "-p", f"bag:={unknown}", "-p", "play.rate:=20.0",
-        "-p", "input.depth:=10000", "-p", "engine:=compiled", "-p", "increments.right:=averaged",
+        "-p", "input.depth:=10000", "-p", "input.latency:=0.0", "-p", "engine:=compiled",
+        "-p", "increments.right:=averaged",
     )  # fmt: skip
     assert running.code() == 0
     text = "left foot: samples are taken for means over their interval (averaged), as nothing says"

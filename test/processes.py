@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-PATIENCE_S = 1800.0  # guards against hanging for ever, and judges nothing
+PATIENCE_S = 600.0  # guards against hanging for ever, and judges nothing
 TICK_S = 1.0 / os.sysconf("SC_CLK_TCK")
 
 

@@ -13,8 +13,6 @@ from dualfoot_ros.recording import Recording
 from dualfoot_ros.simulation import WalkConfig, simulate
 from dualfoot_ros.timing import Aligner
 
-pytest.importorskip("numba")
-
 FEET = ("left", "right")
 
 
@@ -80,7 +78,9 @@ WILD = {
 
 @cache
 def walk():
-    return simulate(WalkConfig(route="L", rate=60.0, standing=3.0, final_standing=2.0), seed=1)
+    """Return twelve seconds, three of which are a stand."""
+    made = simulate(WalkConfig(route="L", rate=60.0, standing=3.0, final_standing=2.0), seed=1)
+    return Recording(made.left[:720], made.right[:720])
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")

@@ -22,8 +22,8 @@ def result():
 
 @pytest.fixture(scope="module")
 def bare():
-    """Return the calibration from one loop by sensors of which nothing is known."""
-    return calibrate_walks([("usual", recording(5))])
+    """Return the calibration from a short walk by sensors of which nothing is known."""
+    return calibrate_walks([("corner", recording(5, "L"))])
 
 
 def test_both_sensors_are_calibrated_and_their_accelerometers_are_kept(result):
@@ -42,7 +42,7 @@ def test_both_sensors_are_calibrated_and_their_accelerometers_are_kept(result):
 def test_a_gyro_bias_that_is_known_already_is_kept_and_changes_no_matrix(bare):
     bias = np.array([0.01, -0.02, 0.005])
     given = {f: SensorCalibration(gyro=Triad(bias, 1.01 * np.eye(3))) for f in FEET}
-    again = calibrate_walks([("usual", recording(5))], None, given)
+    again = calibrate_walks([("corner", recording(5, "L"))], None, given)
     for foot in FEET:
         assert np.array_equal(again.feet[foot].triad().bias, bias)
         change = again.feet[foot].fit.elements - bare.feet[foot].fit.elements
@@ -70,7 +70,7 @@ def test_without_a_calibrated_accelerometer_the_uncertainty_and_a_sentence_say_s
 
 def test_six_attitudes_leave_the_angles_of_the_accelerometer_open():
     given = {foot: accelerometer("scale") for foot in FEET}
-    found = calibrate_walks([("usual", recording(5))], None, given, misalignment=0.01)
+    found = calibrate_walks([("corner", recording(5, "L"))], None, given, misalignment=0.01)
     assert any("10 mrad" in each for each in found.feet["right"].remarks())
     assert (found.feet["right"].elements_std[3:] >= 0.01).all()
 

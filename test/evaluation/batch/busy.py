@@ -4,7 +4,7 @@ import os
 
 
 def busy(number: int) -> int:
-    """Say in one write, since two workers share a file, that the work has begun; go on for ever."""
+    """Say that the work has begun, in one write since two workers share a file; never end."""
     os.write(1, b"on\n")
     while True:
         number += 1

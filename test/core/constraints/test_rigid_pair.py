@@ -101,7 +101,7 @@ def accelerations(feet, x, dt, values):
 def test_with_known_attitude_it_is_the_papers_linear_filter():
     walked, arm = board(1)
     made = simulate(walked, grade("consumer"), seed=1)
-    pairs = Pairs(made.left.stamp_ns, stack_pairs(made.left, made.right))[:1100]
+    pairs = Pairs(made.left.stamp_ns, stack_pairs(made.left, made.right))[:750]
     config = TrackerConfig.from_mapping(
         {
             **KNOWN_ATTITUDE,

@@ -15,10 +15,10 @@ from .findings import (
     findings_of,
     lost_heading,
     qualities_of,
-    rate_findings,
     require_usable,
     ride_findings,
     start_findings,
+    tracker_findings,
     walk_findings,
 )
 from .gyro_agreement import GyroAgreement, RateError, gyro_agreement
@@ -69,7 +69,6 @@ __all__ = [
     "pressure_facts",
     "qualities_of",
     "quality_of",
-    "rate_findings",
     "recorded_fields",
     "require_usable",
     "ride_findings",
@@ -79,6 +78,7 @@ __all__ = [
     "start_findings",
     "straight",
     "track_findings",
+    "tracker_findings",
     "unconstrained_config",
     "walk_facts",
     "walk_findings",

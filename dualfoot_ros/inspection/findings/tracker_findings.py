@@ -1,13 +1,15 @@
-"""Findings on what a track started from: a restless or short stand, or none at all."""
+"""Findings on what a tracker itself says of a walk: its start, floors, rate, and its end."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
 
-from ...core import Event, EventKind
+from ...core import LOST_HEADING_STD, Event, EventKind, Trajectory
 from .finding import Finding, Severity
 from .finding_kinds import FindingKind
+from .rate_findings import rate_findings
+from .ride_findings import ride_findings
 
 MINUTE_S = 60.0
 HALF_TURN_DEG = 180.0
@@ -15,10 +17,22 @@ STARTS = {
     "restless_stand": "the track starts from a short or restless stand",
     "first_stance": "nobody stood before the walk, so the track starts from its first stances",
 }
-REMEDY = (
+RESTLESS_REMEDY = (
     "stand still with both feet for some seconds, now or at the end; keep the gyro biases of "
     "these sensors (--bias-memory, parameter bias_memory of fusion)"
 )
+LOST_REMEDY = (
+    "give the pose of the person anew (initialpose, set_pose); for hours of walking use an aid "
+    "that knows the heading (aids.magnetic_heading, aids.straight_lines)"
+)
+
+
+def tracker_findings(trajectory: Trajectory) -> Iterator[Finding]:
+    """Yield the findings that hold for any method, for two feet and for one alone."""
+    yield from start_findings(trajectory.events)
+    yield from ride_findings(trajectory.events)
+    yield from rate_findings(trajectory)
+    yield from end_findings(trajectory)
 
 
 def start_findings(events: Iterable[Event]) -> Iterator[Finding]:
@@ -37,5 +51,17 @@ def restless_start(start: str, bias_std: float) -> Finding:
         Severity.WARNING,
         f"{STARTS[start]}: the gyro bias is known to {math.degrees(bias_std):.2g} deg/s, and the "
         f"heading may be off by {expected} after a minute of walking (one sigma)",
-        REMEDY,
+        RESTLESS_REMEDY,
     )
+
+
+def lost_heading(std: float) -> Finding:
+    """Return the finding on a heading that is known to ``std`` (rad) and no better."""
+    text = f"the heading is lost: it is off by {math.degrees(std):.0f} degrees (one sigma)"
+    return Finding(FindingKind.LOST_HEADING, Severity.WARNING, text, LOST_REMEDY)
+
+
+def end_findings(trajectory: Trajectory) -> Iterator[Finding]:
+    """Yield a finding when the heading is lost at the end of a track."""
+    if trajectory.heading_std > LOST_HEADING_STD:
+        yield lost_heading(trajectory.heading_std)

@@ -6,7 +6,12 @@ from .rate_findings import find_other_rate, seen_rate_hz
 from .recording_findings import check_usable, findings_of, qualities_of, require_usable
 from .ride_findings import ride_findings
 from .stream_findings import STUCK_SHARE
-from .tracker_findings import lost_heading, start_findings, tracker_findings
+from .tracker_findings import (
+    lost_foot_findings,
+    lost_heading,
+    start_findings,
+    tracker_findings,
+)
 from .unit_findings import GRAVITY_ERROR
 from .walk_findings import coupled_findings, walk_findings
 
@@ -21,6 +26,7 @@ __all__ = [
     "coupled_findings",
     "find_other_rate",
     "findings_of",
+    "lost_foot_findings",
     "lost_heading",
     "qualities_of",
     "require_usable",

@@ -1,11 +1,11 @@
-"""Findings on what a tracker itself says of a walk: its start, floors, rate, and its end."""
+"""Findings on what a tracker itself says of a walk: its start, floors, lost feet, and its end."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
-from ...core import LOST_HEADING_STD, Event, EventKind, Trajectory
+from ...core import FEET, LOST_HEADING_STD, Event, EventKind, Trajectory
 from .finding import Finding, Severity
 from .finding_kinds import FindingKind
 from .rate_findings import rate_findings
@@ -21,6 +21,10 @@ RESTLESS_REMEDY = (
     "stand still with both feet for some seconds, now or at the end; keep the gyro biases of "
     "these sensors (--bias-memory, parameter bias_memory of fusion)"
 )
+LOST_FOOT_REMEDY = (
+    "look for spikes, shocks, clipping or a stuck sensor there; its track goes on beside the "
+    "other foot, less certain"
+)
 LOST_REMEDY = (
     "give the pose of the person anew (initialpose, set_pose); for hours of walking use an aid "
     "that knows the heading (aids.magnetic_heading, aids.straight_lines)"
@@ -32,6 +36,7 @@ def tracker_findings(trajectory: Trajectory) -> Iterator[Finding]:
     yield from start_findings(trajectory.events)
     yield from ride_findings(trajectory.events)
     yield from rate_findings(trajectory)
+    yield from lost_foot_findings(trajectory.events)
     yield from end_findings(trajectory)
 
 
@@ -53,6 +58,21 @@ def restless_start(start: str, bias_std: float) -> Finding:
         f"heading may be off by {expected} after a minute of walking (one sigma)",
         RESTLESS_REMEDY,
     )
+
+
+def lost_foot_findings(events: Sequence[Event]) -> Iterator[Finding]:
+    """Yield a finding on each foot that was lost, from the events of a walk or the newest one."""
+    start_ns = next((e.stamp_ns for e in events if e.kind is EventKind.ALIGNED), None)
+    for foot in FEET:
+        lost = [e for e in events if e.kind is EventKind.LOST and e.foot == foot]
+        if not lost:
+            continue
+        text = f"{foot} foot: it landed faster than a foot can, so its samples before were wrong"
+        if start_ns is not None:
+            first_s = (lost[0].stamp_ns - start_ns) * 1e-9
+            text += f", first {first_s:.1f} s after the start of the track"
+            text += f", {len(lost)} times in all" if len(lost) > 1 else ""
+        yield Finding(FindingKind.LOST_FOOT, Severity.WARNING, text, LOST_FOOT_REMEDY, about=foot)
 
 
 def lost_heading(std: float) -> Finding:

@@ -67,7 +67,7 @@ def lost_foot_findings(events: Sequence[Event]) -> Iterator[Finding]:
         lost = [e for e in events if e.kind is EventKind.LOST and e.foot == foot]
         if not lost:
             continue
-        text = f"{foot} foot: it landed faster than a foot can, so its samples were wrong or missing"
+        text = f"{foot} foot: it landed faster than a foot can: its samples were wrong or missing"
         if start_ns is not None:
             first_s = (lost[0].stamp_ns - start_ns) * 1e-9
             text += f", first {first_s:.1f} s after the start of the track"

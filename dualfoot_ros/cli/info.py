@@ -83,8 +83,8 @@ def _inspect_walk(contents: Contents) -> None:
         FindingKind,
         Severity,
         coupled_findings,
-        ride_findings,
         stance_statistics,
+        tracker_findings,
         unconstrained_config,
         walk_findings,
     )
@@ -99,7 +99,7 @@ def _inspect_walk(contents: Contents) -> None:
             del alone  # before the next one: a walk of an hour takes some hundred megabytes
             coupled = track_walk(samples, covariances=False)
             findings += [*coupled_findings(coupled)] if both else []
-            findings += ride_findings(coupled.events)
+            findings += tracker_findings(coupled)
         except DualFootError as error:
             finding = Finding(FindingKind.NOT_TRACKED, Severity.ERROR, str(error))
             contents.findings.append(finding)

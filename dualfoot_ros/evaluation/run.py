@@ -22,9 +22,7 @@ from ..inspection import (
     FindingKind,
     check_usable,
     coupled_findings,
-    rate_findings,
-    ride_findings,
-    start_findings,
+    tracker_findings,
     unconstrained_config,
     walk_findings,
 )
@@ -154,8 +152,7 @@ def _run_walk(
     trajectory = track_walk(samples, config, options.priors)
     run_s = walk.paired_s + time.process_time() - begin
     del samples
-    events = trajectory.events
-    of_walk = [*start_findings(events), *ride_findings(events), *rate_findings(trajectory), *alone]
+    of_walk = [*tracker_findings(trajectory), *alone]
     if walk.on_both:
         of_walk += _walk_findings(config, trajectory)
     evaluation = evaluate(

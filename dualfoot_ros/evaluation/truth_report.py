@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..core import FootTrajectory, Trajectory
+from ..core import BoolArray, FootTrajectory, Trajectory
 from .frames.association import Footfalls
 from .frames.gauge import Truth
 from .metrics.accuracy import Errors, StrideErrors, heading_error, position_errors, stride_errors
@@ -30,7 +30,8 @@ def against_truth(aligned: Trajectory, truth: Truth) -> TruthReport:
     feet = (aligned.left, aligned.right)
     falls = [Footfalls.of(foot) for foot in feet]
     turns = (heading_error(f.quaternion, t.quaternion) for f, t in zip(feet, truth, strict=True))
-    heading = heading_errors(*turns)
+    both = _where(aligned.left.present & aligned.right.present)
+    heading = heading_errors(*(turn[both] for turn in turns))
     left, right, midpoint = _positions(feet, truth, falls)
     return TruthReport(
         left=left,
@@ -51,7 +52,17 @@ def _positions(
     """Return the errors of both feet and of the middle between them."""
     walked = [f.walked(t.position, t.stamp_ns) for f, t in zip(falls, truth, strict=True)]
     error, other = (f.position - t.position for f, t in zip(feet, truth, strict=True))
-    left, right = position_errors(error, walked[0]), position_errors(other, walked[1])
+    there = [_where(foot.present) for foot in feet]
+    left, right = (
+        position_errors(off[rows], way[rows])
+        for off, way, rows in zip((error, other), walked, there, strict=True)
+    )
     error += other
     error /= 2  # in place: a walk of an hour has 18 MB of them
-    return left, right, position_errors(error, (walked[0] + walked[1]) / 2)
+    both, way = _where(feet[0].present & feet[1].present), (walked[0] + walked[1]) / 2
+    return left, right, position_errors(error[both], way[both])
+
+
+def _where(present: BoolArray) -> BoolArray | slice:
+    """Return the epochs (N,) that count: those with samples, or all where none has any."""
+    return slice(None) if present.all() or not present.any() else present

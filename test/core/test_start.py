@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -74,6 +76,38 @@ def test_a_walk_without_any_stand_starts_from_its_first_stances():
     missing_m = whole.left.position[whole.left.stamp_ns >= result.start_ns][0]
     rest = np.linalg.norm((whole.left.position[-1] - missing_m)[:2])
     assert way_of(result.left) == pytest.approx(rest, rel=0.06)
+
+
+def alone(series):
+    """Return the series of a foot whose other foot has no sensor, as that of the other foot."""
+    nothing = np.full((len(series), 3), np.nan)
+    return replace(series, specific_force=nothing, angular_rate=nothing)
+
+
+@pytest.mark.parametrize(
+    ("standing", "cut_s", "kind"), [(1.2, 0.0, "restless_stand"), (5.0, 7.0, "first_stance")]
+)
+def test_one_foot_alone_starts_as_two_do(standing, cut_s, kind):
+    walk = made(standing=standing, final_standing=0.5)
+    moving = slice(round(cut_s * RATE), None)
+    left, right = walk.left[moving], walk.right[moving]
+    both, one = run(left, right), run(left, alone(right))
+    assert start_of(one)["start"] == start_of(both)["start"] == kind
+    assert way_of(one.left) == pytest.approx(way_of(both.left), rel=0.06)
+
+
+def test_a_foot_that_begins_a_second_late_is_waited_for():
+    walk = made(standing=3.0)
+    late = walk.right.stamp_ns < walk.right.stamp_ns[0] + 1_000_000_000
+    nothing = alone(walk.right)
+    right = replace(
+        walk.right,
+        specific_force=np.where(late[:, None], nothing.specific_force, walk.right.specific_force),
+        angular_rate=np.where(late[:, None], nothing.angular_rate, walk.right.angular_rate),
+    )
+    result = run(walk.left, right, **{"alignment.patience": 0.0})
+    assert result.right.present.all()
+    assert (result.start_ns - int(walk.left.stamp_ns[0])) * 1e-9 > 1.0
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -71,6 +71,19 @@ def test_one_transform_for_both_feet_keeps_the_error_between_them_and_two_take_i
     assert "each foot" in each.alignment_name
 
 
+@pytest.mark.parametrize("pair", list(Pair))
+def test_where_a_foot_is_missing_it_has_no_error_and_tells_no_frame(pair):
+    track, truth = perfect(rectangle())
+    there = np.arange(len(track.right)) > len(track.right) // 2
+    track.right.position[~there] = [5.0, -3.0, 1.0]
+    late = replace(track, right=replace(track.right, present=there))
+    found = evaluate(late, truth=truth, options=Options(pair=pair)).truth_report
+    assert max(found.left.max_m, found.right.max_m, found.midpoint.max_m) < 1e-9
+    gone = replace(track, right=replace(track.right, present=~there))
+    found = evaluate(gone, truth=truth, options=Options(pair=pair)).truth_report
+    assert found.right.max_m > 1.0
+
+
 def test_the_whole_walk_fitted_has_no_more_rmse_than_the_first_strides_fitted():
     track, truth = perfect(rectangle())
     for foot in (track.left, track.right):

@@ -171,6 +171,7 @@ def test_these_recordings_show_all_but_a_few_kinds(plain):
         "rate_used",
         "carried",
         "lost_heading",
+        "lost_foot",
         *OF_WALKS,
     }
     assert seen | rare == kinds_made_in("inspection")

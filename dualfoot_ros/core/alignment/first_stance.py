@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,13 +12,13 @@ from ..config import TrackerConfig
 from ..results.events import FEET
 from ..rotation import exact_rotation
 from ..samples.series import FloatArray
-from .foot_stand import FootStandstill
+from .foot_stand import FootStandstill, absent_foot
 from .window import Window, WindowSlider
 
 LENGTH_S = 0.2  # of the window in which a foot counts as standing
 CALM_RATE_STD, CALM_FORCE_STD = 0.3, 1.0  # rad/s and m/s^2, scatter within it
 CALM_RATE, CALM_GRAVITY = 0.5, 1.0  # rad/s and m/s^2, of its means
-APART_S = 1.0  # from the stance of one foot to that of the other
+APART_S = 1.0  # at most, since the stance of a foot
 BIAS_STD = 10.0  # rad/s: a stance tells nothing of the gyro bias
 TILT_STD = 0.5  # m/s^2, of the mean force of a foot that only just stands
 
@@ -34,9 +35,12 @@ class FirstStances:
         self._last_ns: int | None = None
 
     def add(
-        self, stamp_ns: int, values: FloatArray
+        self, stamp_ns: int, values: FloatArray, absent: Sequence[bool]
     ) -> tuple[FootStandstill, FootStandstill] | None:
-        """Take a pair (12,); return what both stances tell when the second one has come."""
+        """Take a pair (12,); return what both stances tell when the second one has come.
+
+        A foot that is ``absent`` (2,) is not waited for.
+        """
         dt = 0.0 if self._last_ns is None else (stamp_ns - self._last_ns) * 1e-9
         self._last_ns = stamp_ns
         for foot, slider in enumerate(self._sliders):
@@ -46,10 +50,13 @@ class FirstStances:
             if window is not None and self._calm(window):
                 self._stances[foot] = standstill_of(window)
                 self._turned[foot] = np.eye(3)
-        left, right = self._stances
-        if left is None or right is None or abs(left.end_ns - right.end_ns) > APART_S * 1e9:
+        left, right = (
+            absent_foot(self._gravity, stamp_ns) if gone else self._now(foot, stamp_ns)
+            for foot, gone in enumerate(absent)
+        )
+        if left is None or right is None or (left.absent and right.absent):
             return None
-        return self._now(0, left, stamp_ns), self._now(1, right, stamp_ns)
+        return left, right
 
     def _calm(self, window: Window) -> bool:
         excess = abs(math.hypot(*window.mean[:3].tolist()) - self._gravity)
@@ -60,8 +67,11 @@ class FirstStances:
             and excess < CALM_GRAVITY
         )
 
-    def _now(self, foot: int, stance: FootStandstill, stamp_ns: int) -> FootStandstill:
-        """Return what a stance tells of a foot that has turned since."""
+    def _now(self, foot: int, stamp_ns: int) -> FootStandstill | None:
+        """Return what a stance tells of a foot that has turned since; None if it is long ago."""
+        stance = self._stances[foot]
+        if stance is None or stamp_ns - stance.end_ns > APART_S * 1e9:
+            return None
         force = self._turned[foot].T @ stance.specific_force
         moving = stamp_ns > stance.end_ns
         return replace(stance, specific_force=force, moving=moving, end_ns=stamp_ns)

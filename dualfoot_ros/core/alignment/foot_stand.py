@@ -18,6 +18,7 @@ from .window import Window
 
 MEMORY_S = 30.0  # what is older than that fades: biases drift
 UPRIGHT = 0.95  # cosine to the vertical, from which an axis has no heading
+UNKNOWN_BIAS_STD = 0.03  # rad/s, of consumer sensors at turn-on
 FEWEST = 3.0  # independent windows below which their scatter alone says too little
 
 
@@ -57,6 +58,12 @@ class FootStandstill:
     def with_bias(self, bias: FloatArray, std: float) -> FootStandstill:
         """Return the same with another gyro bias (3,) and its standard deviation, rad/s."""
         return replace(self, angular_rate=bias, rate_std=std)
+
+
+def absent_foot(gravity: float, stamp_ns: int) -> FootStandstill:
+    """Return what is known of a foot without samples: nothing."""
+    force = np.array([0.0, 0.0, gravity])
+    return FootStandstill(force, np.zeros(3), UNKNOWN_BIAS_STD, 1.0, 0.0, stamp_ns, absent=True)
 
 
 def stillness(scatter: FloatArray, floor: float) -> FloatArray:

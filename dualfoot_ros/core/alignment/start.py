@@ -19,14 +19,14 @@ from ..config import TrackerConfig
 from ..results.events import FEET
 from ..samples.series import FloatArray, IntArray
 from .first_stance import FirstStances
-from .foot_stand import FootStandstill
+from .foot_stand import UNKNOWN_BIAS_STD, FootStandstill, absent_foot
 from .foot_watch import FootWatch
 from .prior import BiasPrior
 from .sampling_rate import SamplingRate
 from .window import Window
 
 ABSENT_S = 2.0  # without samples, after which a start does without a foot
-UNKNOWN_BIAS = BiasPrior(np.zeros(3), 0.03)  # rad/s, of consumer sensors at turn-on
+UNKNOWN_BIAS = BiasPrior(np.zeros(3), UNKNOWN_BIAS_STD)
 Pair = tuple[int, FloatArray]
 Standstills = tuple[FootStandstill, FootStandstill]
 
@@ -54,13 +54,6 @@ class Start:
     feet: Standstills
     rate_hz: float
     waiting: tuple[Pair, ...] = ()
-
-
-def absent_foot(gravity: float, stamp_ns: int) -> FootStandstill:
-    """Return what is known of a foot without samples: nothing."""
-    force = np.array([0.0, 0.0, gravity])
-    unknown = UNKNOWN_BIAS.std
-    return FootStandstill(force, np.zeros(3), unknown, 1.0, 0.0, stamp_ns, absent=True)
 
 
 def worst_std(*feet: FootStandstill) -> float:
@@ -107,17 +100,14 @@ class Alignment:
         if self._since_ns is None:
             self._since_ns = self._first_ns = stamp_ns
         if self._candidate is None and self._without_stand is None:
-            self._without_stand = self._first_stances.add(stamp_ns, values)
-            if self._without_stand is not None:
-                self._waiting.clear()
+            self._look_for_stances(stamp_ns, values)
         if self._look(stamp_ns, values):
             self._consider(stamp_ns)
             there = [w.quiet_s for w in self._watches if not self._absent(w, stamp_ns)]
             if there and min(there) >= self._config.alignment.duration:
                 return self._start(StartKind.STAND, self._candidate)
-        if stamp_ns - self._since_ns < self._config.alignment.patience * 1e9:
-            return None
-        return self.finish()
+        waited = stamp_ns - self._since_ns >= self._config.alignment.patience * 1e9
+        return self.finish() if waited and not self._awaits_foot(stamp_ns) else None
 
     def finish(self) -> Start | None:
         """Return a start from what is there, when no more pairs will come."""
@@ -159,9 +149,23 @@ class Alignment:
 
     def _look(self, stamp_ns: int, values: FloatArray) -> bool:
         """Take a pair; return whether a window of either foot ended with it."""
+        awaited = self._awaits_foot(stamp_ns)
         parts = values[:6].copy(), values[6:].copy()
         ended = [w.add(stamp_ns, part) for w, part in zip(self._watches, parts, strict=True)]
+        if awaited and all(watch.seen_ns is not None for watch in self._watches):
+            self._candidate, self._first_stances = None, FirstStances(self._config)
         return any(ended)
+
+    def _look_for_stances(self, stamp_ns: int, values: FloatArray) -> None:
+        """Take a pair; keep the first stances, of both feet or of the one that is alone."""
+        absent = [self._absent(watch, stamp_ns) for watch in self._watches]
+        self._without_stand = self._first_stances.add(stamp_ns, values, absent)
+        if self._without_stand is not None:
+            self._waiting.clear()
+
+    def _awaits_foot(self, stamp_ns: int) -> bool:
+        """Return whether the samples of a foot may just not have begun."""
+        return any(w.seen_ns is None and not self._absent(w, stamp_ns) for w in self._watches)
 
     def _absent(self, watch: FootWatch, stamp_ns: int) -> bool:
         """Return whether a foot has had no sample for so long that the other one starts alone."""
@@ -169,7 +173,7 @@ class Alignment:
         return since_ns is not None and stamp_ns - since_ns >= ABSENT_S * 1e9
 
     def _standstill(self, watch: FootWatch, stamp_ns: int) -> FootStandstill | None:
-        if self._absent(watch, stamp_ns):
+        if watch.seen_ns is None or self._absent(watch, stamp_ns):
             return absent_foot(self._config.gravity, stamp_ns)
         return watch.standstill
 

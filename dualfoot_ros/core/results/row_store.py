@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -31,6 +32,7 @@ class RowStore:
         self._nis = np.zeros((count, 2))
         self._triangles = np.zeros((count if covariances else 0, len(TRIANGLES)))
         self._turned = np.empty((0, len(SQUARES)))  # covariances of the rows that were turned
+        self._newest, self._heading_std = -1, math.nan  # of the newest row, which no turn changes
 
     def put(self, places: slice | list[int], rows: FloatArray) -> None:
         """Take rows (K, OUT) for places that no turn has reached."""
@@ -40,6 +42,9 @@ class RowStore:
         self._nis[places] = zupt_nis(rows)
         if self._with_covariances:
             self._triangles[places] = np.take(rows, TRIANGLES, axis=1)
+        last = places.stop - 1 if isinstance(places, slice) else places[-1]
+        if len(rows) and last >= self._newest:
+            self._newest, self._heading_std = last, _heading_std(rows[-1])
 
     def turn(self, count: int, event: Event) -> None:
         """Turn the first ``count`` rows as a HEADING event says."""
@@ -86,7 +91,17 @@ class RowStore:
         relative = self._covariances(len(BLOCKS) - 1).cut(keep)
         start = int(stamps[0]) if len(stamps) else 0
         nis = self._nis[keep]
-        return Trajectory(left, right, relative, events, dict(counters), start, method, nis)
+        return Trajectory(
+            left,
+            right,
+            relative,
+            events,
+            dict(counters),
+            start,
+            method,
+            nis,
+            self._heading_std,
+        )
 
     def _foot(
         self, foot: int, stamps: IntArray, keep: BoolArray | slice, events: tuple[Event, ...]
@@ -103,3 +118,10 @@ class RowStore:
             self._covariances(first + 2).cut(keep),
             self._present[keep, foot],
         )
+
+
+def _heading_std(row: FloatArray) -> float:
+    """Return the standard deviation of the headings in a row, rad; nan where no foot is there."""
+    starts = [foot * lay.O_FOOT for foot in range(2) if row[foot * lay.O_FOOT + lay.O_PRESENT] > 0]
+    stds = [math.sqrt(max(float(row[start + lay.O_COV_ATT + 8]), 0.0)) for start in starts]
+    return sum(stds) / len(stds) if stds else math.nan

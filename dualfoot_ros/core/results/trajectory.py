@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -88,6 +89,8 @@ class Trajectory:
     ``relative_covariance`` (N, 3, 3) is the covariance of left minus right position.
     ``start_ns`` is the epoch at which the alignment was done and the output starts.
     ``zupt_nis`` (N, 2) is the NIS of each foot's zero-velocity update, nan where there was none.
+    ``heading_std`` rad is the standard deviation of the heading at the end, the mean of the feet
+    that are there, also where covariances are not kept; nan where it is not known.
     """
 
     left: FootTrajectory
@@ -98,6 +101,7 @@ class Trajectory:
     start_ns: int
     method: str
     zupt_nis: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
+    heading_std: float = math.nan
 
     def __post_init__(self) -> None:
         """Take an array of covariances as given."""

@@ -73,12 +73,15 @@ def _to_truth(trajectory: Trajectory, truth: Truth, options: Options) -> dict[st
         whole = options.align is Align.UMEYAMA4
         estimates.append(foot.position if whole else falls.mean(foot.position))
         references.append(true.position if whole else falls.mean(true.position))
-    if options.pair is Pair.COMMON:
-        one = fit(options.align, estimates, references, options.length_m)
+    pairs = list(zip(estimates, references, strict=True))
+    first = [bool(foot.present[0]) for foot in (trajectory.left, trajectory.right)]
+    begun = [pair for pair, there in zip(pairs, first, strict=True) if there] or pairs
+    if options.pair is Pair.COMMON or len(begun) < len(pairs):  # a late foot has no start to join
+        one = fit(options.align, [e for e, _ in begun], [r for _, r in begun], options.length_m)
         return {"left": one, "right": one}
     return {
         foot: fit(options.align, [e], [r], options.length_m)
-        for foot, e, r in zip(FEET, estimates, references, strict=True)
+        for foot, (e, r) in zip(FEET, pairs, strict=True)
     }
 
 

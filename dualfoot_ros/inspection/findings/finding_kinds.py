@@ -92,6 +92,7 @@ class FindingKind(StrEnum):
     SPACING = "spacing", True
     CARRIED = "carried", True
     LOST_HEADING = "lost_heading", True
+    LOST_FOOT = "lost_foot", True, True
 
     # topics
     NO_PUBLISHER = "no_publisher"

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 
-from ...core import LOST_HEADING_STD, Trajectory, stance_passings
+from ...core import Trajectory, stance_passings
 from ..lateral_spacing import SideBySide, side_by_side
 from ..walk_facts import WalkFacts, walk_facts
 from .feet_findings import (
@@ -15,8 +14,7 @@ from .feet_findings import (
     find_spacing,
     find_unequal_ways,
 )
-from .finding import Finding, Severity
-from .finding_kinds import FindingKind
+from .finding import Finding
 from .stance_findings import (
     find_long_strides,
     find_missed_stances,
@@ -40,18 +38,6 @@ OF_PASSINGS: Sequence[Callable[[WalkFacts, SideBySide], Iterator[Finding]]] = (
 )
 
 
-LOST_REMEDY = (
-    "give the pose of the person anew (initialpose, set_pose); for hours of walking use an aid "
-    "that knows the heading (aids.magnetic_heading, aids.straight_lines)"
-)
-
-
-def lost_heading(std: float) -> Finding:
-    """Return the finding on a heading that is known to ``std`` (rad) and no better."""
-    text = f"the heading is lost: it is off by {math.degrees(std):.0f} degrees (one sigma)"
-    return Finding(FindingKind.LOST_HEADING, Severity.WARNING, text, LOST_REMEDY)
-
-
 def walk_findings(trajectory: Trajectory) -> Iterator[Finding]:
     """Yield the findings on a walk tracked with :func:`~.stance_statistics.unconstrained_config`.
 
@@ -72,13 +58,3 @@ def walk_findings(trajectory: Trajectory) -> Iterator[Finding]:
 def coupled_findings(trajectory: Trajectory) -> Iterator[Finding]:
     """Yield the findings on a walk whose tracks a method holds together."""
     yield from find_feet_apart(walk_facts(trajectory))
-    yield from find_lost_heading(trajectory)
-
-
-def find_lost_heading(trajectory: Trajectory) -> Iterator[Finding]:
-    """Yield a finding when the heading is lost at the end; nothing without covariances."""
-    there = [foot for foot in (trajectory.left, trajectory.right) if foot.present[-1]]
-    stds = [math.sqrt(foot.attitude_covariance[-1][2, 2]) for foot in there]
-    std = sum(stds) / max(1, len(stds))
-    if std > LOST_HEADING_STD:
-        yield lost_heading(std)

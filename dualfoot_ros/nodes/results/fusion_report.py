@@ -16,6 +16,7 @@ from ...inspection import (
     FindingKind,
     Severity,
     find_other_rate,
+    lost_foot_findings,
     ride_findings,
     start_findings,
 )
@@ -34,6 +35,7 @@ LOGGED = (
 )
 RATE_OVER = 500  # samples over which the rate that comes is seen
 NO_STANCE_NS = 2_000_000_000
+LOST_SAID_NS = 10_000_000_000  # for how long a foot that was lost is reported
 NOT_SHARED = 0.5  # of the pairs are interpolated; of lost samples that are filled it is less
 MOST_LAG_S = 60.0  # beyond it, the stamps are of another clock
 OTHER_CLOCK = "unknown: the stamps are of another clock (in a replay, set use_sim_time)"
@@ -66,6 +68,8 @@ class FusionReport:
         self._phase = "aligning"
         self._start: Finding | None = None
         self._ride: Finding | None = None
+        self._lost: Finding | None = None
+        self._lost_ns = 0
         self._stance = dict.fromkeys(FEET, False)
         self._stamp_ns = 0
         self._last_stance_ns = dict.fromkeys(FEET, 0)
@@ -123,6 +127,9 @@ class FusionReport:
             self._start = None
         elif event.kind is EventKind.CARRIED:
             self._ride = next(ride_findings([event]), None)
+        elif event.kind is EventKind.LOST:
+            self._lost = next(lost_foot_findings([event]), None)
+            self._lost_ns = event.detected_ns
         if event.kind is EventKind.CONSTRAINT and event.accepted and len(event.innovation):
             self._correction_m = float(np.linalg.norm(event.innovation))
 
@@ -157,6 +164,8 @@ class FusionReport:
                 status.note(finding)
         if self._ride is not None:
             status.note(self._ride)
+        if self._lost is not None and self._stamp_ns - self._lost_ns < LOST_SAID_NS:
+            status.note(self._lost)
         if tracker.phase == "aligning" and tracker.complaint:
             text = f"aligning: stand still ({tracker.complaint})"
             status.note(Finding(FindingKind.ALIGNING, Severity.WARNING, text))

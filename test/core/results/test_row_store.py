@@ -1,5 +1,7 @@
 """A trajectory has the bits of the kernel's rows, whatever is kept of them."""
 
+import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -57,6 +59,27 @@ def test_without_covariances_all_else_is_the_same(name):
         assert getattr(track, name).shape == (len(track), 3, 3)
         assert np.isnan(getattr(track, name)[::50]).all()
     assert [e.stamp_ns for e in result.events] == [e.stamp_ns for e in whole.events]
+
+
+@pytest.mark.parametrize("covariances", [False, True])
+def test_the_heading_at_the_end_has_the_deviation_of_its_feet(covariances):
+    feet = tracked(covariances=True).left, tracked(covariances=True).right
+    stds = [math.sqrt(foot.attitude_covariance[-1][2, 2]) for foot in feet]
+    assert tracked(covariances).heading_std == sum(stds) / 2
+
+
+def test_the_heading_of_a_walk_that_ends_on_one_foot_is_that_of_the_foot():
+    left, right = walk().left, walk().right
+    gone = np.arange(len(right)) > len(right) - 100
+    force, rate = (
+        np.where(gone[:, np.newaxis], np.nan, part)
+        for part in (right.specific_force, right.angular_rate)
+    )
+    right = replace(right, specific_force=force, angular_rate=rate)
+    result = DualFootTracker().run(left, right)
+    assert not result.right.present[-1]
+    assert result.heading_std == math.sqrt(result.left.attitude_covariance[-1][2, 2])
+    assert result.right.attitude_covariance[-1][2, 2] != result.left.attitude_covariance[-1][2, 2]
 
 
 def test_a_live_run_has_the_same_rows():

@@ -5,7 +5,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from dualfoot_ros.core import DualFootTracker, ImuPair, Refusal, TrackerConfig, Update
+from dualfoot_ros.core import (
+    DualFootTracker,
+    Event,
+    EventKind,
+    ImuPair,
+    Refusal,
+    TrackerConfig,
+    Update,
+)
 from dualfoot_ros.inspection import Finding, FindingKind, Severity
 from dualfoot_ros.nodes.results.fusion_report import FusionReport
 from dualfoot_ros.nodes.ros.diagnostics import OVER_S
@@ -135,6 +143,18 @@ def test_a_rate_that_is_not_that_of_the_start_is_a_warning_with_both_figures(fus
         fusion.track(start_ns + k * STEP_NS // 2, PAIR + 1e-3 * np.sin(k + np.arange(12)))
     (finding,) = fusion.status().of_kind(FindingKind.RATE_USED)
     assert "100.0 Hz" in finding.text and "200.0 Hz" in finding.text
+
+
+def test_a_foot_that_was_lost_is_a_warning_for_ten_seconds(fusion):
+    second = 10**9
+    lost = Event(EventKind.LOST, 10**12, "left", 10**12 + second)
+    fusion.report.add(Update(10**12 + second, "standing", events=(lost,)))
+    (finding,) = fusion.status().of_kind(FindingKind.LOST_FOOT)
+    assert finding.about == "left"
+    fusion.report.add(Update(10**12 + 10 * second, "standing"))
+    assert fusion.kinds() == [FindingKind.LOST_FOOT]
+    fusion.report.add(Update(10**12 + 11 * second, "standing"))
+    assert fusion.kinds() == []
 
 
 def test_the_lag_behind_another_clock_is_not_given_as_a_number(fusion):

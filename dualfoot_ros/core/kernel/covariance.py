@@ -43,10 +43,11 @@ def add_noise(w, block, dt):
         w[block + DIAGONAL * (E_BA + i)] += w[C_Q_BA] * h
 
 
-def apply_transition(w, source, target, dt):
-    """Write Phi times the 15x16 block at ``source`` to ``target``, Phi of eqs (6)-(8).
+def apply_transition(w, block, dt):
+    """Multiply the 15x16 block at ``block`` by Phi of eqs (6)-(8) from the left, in its place.
 
-    Phi is given by S_CDT (R_nb dt) and S_SF (f_n dt) of the foot just mechanized.
+    Phi is given by S_CDT (R_nb dt) and S_SF (f_n dt) of the foot just mechanized.  One offset for
+    what is read and written lets a compiler see that columns do not depend on each other.
     """
     # f_n dt and R_nb dt: the blocks of F, eq. (6), that are neither zero nor the identity
     fx = w[S_SF]
@@ -62,12 +63,9 @@ def apply_transition(w, source, target, dt):
     c21 = w[S_CDT + 7]
     c22 = w[S_CDT + 8]
     m = 1.0 - dt * w[C_BIAS_RATE]  # first-order Markov biases
-    source &= PLACE
-    target &= PLACE
+    block &= PLACE
     for j in range(ROW):
-        p = source + j
-        q = target + j
-        # every row is read before any is written: source and target may be the same block
+        p = block + j
         v0 = w[p + ROWS_VEL]
         v1 = w[p + ROWS_VEL + ROW]
         v2 = w[p + ROWS_VEL + 2 * ROW]
@@ -81,24 +79,24 @@ def apply_transition(w, source, target, dt):
         b1 = w[p + ROWS_BA + ROW]
         b2 = w[p + ROWS_BA + 2 * ROW]
         # position: dr' = v
-        w[q + ROWS_POS] = w[p + ROWS_POS] + dt * v0
-        w[q + ROWS_POS + ROW] = w[p + ROWS_POS + ROW] + dt * v1
-        w[q + ROWS_POS + 2 * ROW] = w[p + ROWS_POS + 2 * ROW] + dt * v2
+        w[p + ROWS_POS] = w[p + ROWS_POS] + dt * v0
+        w[p + ROWS_POS + ROW] = w[p + ROWS_POS + ROW] + dt * v1
+        w[p + ROWS_POS + 2 * ROW] = w[p + ROWS_POS + 2 * ROW] + dt * v2
         # velocity: dv' = f_n x phi + R_nb b_a
-        w[q + ROWS_VEL] = v0 + (fy * a2 - fz * a1) + (c00 * b0 + c01 * b1 + c02 * b2)
-        w[q + ROWS_VEL + ROW] = v1 + (fz * a0 - fx * a2) + (c10 * b0 + c11 * b1 + c12 * b2)
-        w[q + ROWS_VEL + 2 * ROW] = v2 + (fx * a1 - fy * a0) + (c20 * b0 + c21 * b1 + c22 * b2)
+        w[p + ROWS_VEL] = v0 + (fy * a2 - fz * a1) + (c00 * b0 + c01 * b1 + c02 * b2)
+        w[p + ROWS_VEL + ROW] = v1 + (fz * a0 - fx * a2) + (c10 * b0 + c11 * b1 + c12 * b2)
+        w[p + ROWS_VEL + 2 * ROW] = v2 + (fx * a1 - fy * a0) + (c20 * b0 + c21 * b1 + c22 * b2)
         # attitude: phi' = -R_nb b_g
-        w[q + ROWS_ATT] = a0 - (c00 * g0 + c01 * g1 + c02 * g2)
-        w[q + ROWS_ATT + ROW] = a1 - (c10 * g0 + c11 * g1 + c12 * g2)
-        w[q + ROWS_ATT + 2 * ROW] = a2 - (c20 * g0 + c21 * g1 + c22 * g2)
+        w[p + ROWS_ATT] = a0 - (c00 * g0 + c01 * g1 + c02 * g2)
+        w[p + ROWS_ATT + ROW] = a1 - (c10 * g0 + c11 * g1 + c12 * g2)
+        w[p + ROWS_ATT + 2 * ROW] = a2 - (c20 * g0 + c21 * g1 + c22 * g2)
         # biases: b' = -b / tau
-        w[q + ROWS_BG] = m * g0
-        w[q + ROWS_BG + ROW] = m * g1
-        w[q + ROWS_BG + 2 * ROW] = m * g2
-        w[q + ROWS_BA] = m * b0
-        w[q + ROWS_BA + ROW] = m * b1
-        w[q + ROWS_BA + 2 * ROW] = m * b2
+        w[p + ROWS_BG] = m * g0
+        w[p + ROWS_BG + ROW] = m * g1
+        w[p + ROWS_BG + 2 * ROW] = m * g2
+        w[p + ROWS_BA] = m * b0
+        w[p + ROWS_BA + ROW] = m * b1
+        w[p + ROWS_BA + 2 * ROW] = m * b2
 
 
 def transpose(w, source, target):
@@ -130,12 +128,12 @@ def propagate_foot(w, foot, dt, coupled=True):
     if foot == 0:
         propagate_block(w, PLL, dt)
         if coupled:
-            apply_transition(w, PLR, PLR, dt)
+            apply_transition(w, PLR, dt)
     else:
         propagate_block(w, PRR, dt)
         if coupled:
             transpose(w, PLR, S_A)
-            apply_transition(w, S_A, S_A, dt)
+            apply_transition(w, S_A, dt)
             transpose(w, S_A, PLR)
 
 
@@ -145,9 +143,9 @@ def propagate_block(w, block, dt):
     Phi P Phi' is taken as (Phi (Phi P)')'.
     """
     add_noise(w, block, dt)
-    apply_transition(w, block, block, dt)
+    apply_transition(w, block, dt)
     transpose(w, block, S_A)
-    apply_transition(w, S_A, S_A, dt)
+    apply_transition(w, S_A, dt)
     mirror(w, S_A, block)  # one triangle is computed, so P stays symmetric to the bit
     add_noise(w, block, dt)
 

@@ -39,7 +39,10 @@ class RowStore:
             self._present[places, foot] = rows[:, foot * lay.O_FOOT + lay.O_PRESENT] > 0.0
         self._nis[places] = zupt_nis(rows)
         if self._with_covariances:
-            self._triangles[places] = np.take(rows, TRIANGLES, axis=1)
+            if isinstance(places, slice):  # without an array in between
+                np.take(rows, TRIANGLES, 1, self._triangles[places], mode="clip")
+            else:
+                self._triangles[places] = np.take(rows, TRIANGLES, axis=1)
 
     def turn(self, count: int, event: Event) -> None:
         """Turn the first ``count`` rows as a HEADING event says."""

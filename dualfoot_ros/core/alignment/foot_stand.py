@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -20,6 +21,7 @@ MEMORY_S = 30.0  # what is older than that fades: biases drift
 UPRIGHT = 0.95  # cosine to the vertical, from which an axis has no heading
 UNKNOWN_BIAS_STD = 0.03  # rad/s, of consumer sensors at turn-on
 FEWEST = 3.0  # independent windows below which their scatter alone says too little
+Scatter = TypeVar("Scatter", float, FloatArray)
 
 
 @dataclass(frozen=True)
@@ -66,13 +68,13 @@ def absent_foot(gravity: float, stamp_ns: int) -> FootStandstill:
     return FootStandstill(force, np.zeros(3), UNKNOWN_BIAS_STD, 1.0, 0.0, stamp_ns, absent=True)
 
 
-def stillness(scatter: FloatArray, floor: float) -> FloatArray:
+def stillness(scatter: Scatter, floor: float) -> Scatter:
     """Return how much a window of angular rate ``scatter`` (rad/s) counts.
 
     The scatter says how far a foot moves, and with it how far the mean of the window is off.
     Below ``floor`` it is noise and quantisation, and says nothing.
     """
-    weight: FloatArray = (scatter**2 + floor**2) ** -2.0
+    weight: Scatter = (scatter * scatter + floor**2) ** -2.0
     return weight
 
 
@@ -92,9 +94,9 @@ class FootStand:
         self.count = 0
         self._after_first_s = 0.0
         self._weight = self._squares = 0.0
-        self._mean, self._spread = np.zeros(6), np.zeros(6)
+        self._mean, self._spread = [0.0] * 6, [0.0] * 6
         # variance of the windows' means (rate, force) by what happens within them
-        self._within = np.zeros(2)
+        self._within = [0.0] * 2
         self._newest: Window | None = None
 
     def add(self, window: Window) -> None:
@@ -102,15 +104,16 @@ class FootStand:
         step_s = self._step_s(window)
         self._after_first_s += step_s
         keep = math.exp(-step_s / MEMORY_S)
-        scatter = np.array([window.rate_std])
-        weight = float(stillness(scatter, self._floor)[0])
+        weight = stillness(window.rate_std, self._floor)
         self._weight = keep * self._weight + weight
         self._squares = keep**2 * self._squares + weight**2
-        step = window.mean - self._mean
-        self._mean = self._mean + (weight / self._weight) * step
-        self._spread = keep * self._spread + weight * step * (window.mean - self._mean)
-        within = np.array([window.mean_rate_std, window.mean_force_std])
-        self._within = keep * self._within + weight * within**2
+        share = weight / self._weight
+        for k, value in enumerate(window.mean.tolist()):
+            step = value - self._mean[k]
+            self._mean[k] += share * step
+            self._spread[k] = keep * self._spread[k] + weight * step * (value - self._mean[k])
+        for k, within in enumerate((window.mean_rate_std, window.mean_force_std)):
+            self._within[k] = keep * self._within[k] + weight * (within * within)
         self._newest = window
         self.count += 1
 
@@ -134,16 +137,14 @@ class FootStand:
         assert self._newest is not None
         alike = self._weight**2 / self._squares  # windows of equal weight that would say as much
         windows = max(1.0, alike * self.seconds / (self.count * self._newest.seconds))
-        variance = self._spread / self._weight
-        between = float(variance[3:].max()) / max(1.0, windows - 1.0)
-        tilts = 0.5 * float(variance[:3].sum())  # two axes: along gravity next to nothing
-        within = self._within / self._weight / windows
+        variance = [spread / self._weight for spread in self._spread]
+        between = max(variance[3:]) / max(1.0, windows - 1.0)
+        # two axes: along gravity next to nothing
+        tilts = 0.5 * (variance[0] + variance[1] + variance[2])
         trust = min(1.0, (windows - 1.0) / FEWEST)
         rate_std, force_std = (
-            math.sqrt(trust * b + (1.0 - trust) * max(b, float(w)))
-            for b, w in zip((between, tilts), within, strict=True)
+            math.sqrt(trust * b + (1.0 - trust) * max(b, w / self._weight / windows))
+            for b, w in zip((between, tilts), self._within, strict=True)
         )
-        end_ns = self._newest.end_ns
-        return FootStandstill(
-            self._mean[:3], self._mean[3:], rate_std, force_std, self.seconds, end_ns
-        )
+        force, rate = np.array(self._mean[:3]), np.array(self._mean[3:])
+        return FootStandstill(force, rate, rate_std, force_std, self.seconds, self._newest.end_ns)

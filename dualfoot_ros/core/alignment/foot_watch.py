@@ -32,7 +32,7 @@ class FootWatch:
 
     def add(self, stamp_ns: int, values: FloatArray) -> bool:
         """Take a sample (6,); return True when a window ended with it."""
-        if not math.isfinite(values.sum()):
+        if not math.isfinite(sum(values.tolist())):
             return False
         self.seen_ns = stamp_ns
         short = None if self.refining else self._short.add(stamp_ns, values)

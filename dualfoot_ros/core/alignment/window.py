@@ -44,7 +44,14 @@ class Window:
     @property
     def rate_std(self) -> float:
         """Largest scatter of the angular rate about an axis, rad/s."""
-        return float(self.std[3:].max())
+        largest: float = max(self.std[3:].tolist())
+        return largest
+
+    @property
+    def force_std(self) -> float:
+        """Largest scatter of the specific force along an axis, m/s^2."""
+        largest: float = max(self.std[:3].tolist())
+        return largest
 
     @property
     def mean_rate_std(self) -> float:
@@ -54,16 +61,18 @@ class Window:
     @property
     def mean_force_std(self) -> float:
         """Standard deviation of the mean specific force across gravity, m/s^2, in the same way."""
-        across = math.sqrt(0.5 * float((self.std[:3] ** 2).sum()))
+        x, y, z = self.std[:3].tolist()
+        across = math.sqrt(0.5 * (x * x + y * y + z * z))
         return across * math.sqrt(CORRELATION_S / max(self.seconds, CORRELATION_S))
 
     def motion(self, config: AlignmentConfig, gravity: float) -> str | None:
         """Return why this window is no standstill, or None."""
-        excess = abs(math.hypot(*self.mean[:3].tolist()) - gravity)
-        largest = float(np.abs(self.mean[3:]).max())
+        mean: list[float] = self.mean.tolist()
+        excess = abs(math.hypot(*mean[:3]) - gravity)
+        largest = max(map(abs, mean[3:]))
         checks = (
             ("angular rate scatter", self.rate_std, config.max_rate_std, "rad/s"),
-            ("specific force scatter", float(self.std[:3].max()), config.max_force_std, "m/s^2"),
+            ("specific force scatter", self.force_std, config.max_force_std, "m/s^2"),
             ("mean angular rate", largest, config.max_rate, "rad/s"),
             ("gravity error", excess, config.max_gravity_error, "m/s^2"),
         )
@@ -74,8 +83,8 @@ class Window:
 
     def quiet(self, config: AlignmentConfig) -> bool:
         """Return whether the foot is so still that the start need not wait for better."""
-        force_std = float(self.std[:3].max())
-        return self.rate_std <= config.quiet_rate_std and force_std <= config.quiet_force_std
+        quiet = self.rate_std <= config.quiet_rate_std
+        return quiet and self.force_std <= config.quiet_force_std
 
 
 def slide_ns(length_ns: int) -> int:

@@ -66,7 +66,7 @@ def put_known(w, c, m, value):
 def clear_beyond(w, row, size):
     """Write zeros behind the first ``size`` columns of the ``row`` of P_cc.
 
-    Nothing reads them, but a row is divided as a whole: what another update has left there would
+    Nothing reads them, but a row is scaled as a whole: what another update has left there would
     grow from one update to the next, until it overflows.
     """
     for c in range(size, X_CC):

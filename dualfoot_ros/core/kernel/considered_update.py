@@ -57,14 +57,13 @@ def clear_rest(w, rows):
 def solve_known(w, size):
     """Solve P_cc X = P_c H' in place of the rows [P_cc, P_c H'] at S_CC, by P_cc = U' U.
 
-    A pivot that is none gives zeros.
+    A pivot that is none gives zeros.  The diagonal of U is left as what it divides by, inverted.
     """
     for k in range(size):
         row = S_CC + ROW_CC * k
-        total = w[row + k]
-        pivot = math.sqrt(total) if total > LEAST_PIVOT else 0.0
-        divide(w, row, pivot)
-        w[row + k] = pivot
+        scale = inverse_root(w[row + k], LEAST_PIVOT)
+        multiply(w, row, scale)
+        w[row + k] = scale
         for i in range(k + 1, size):
             x = w[row + i]
             for j in range(i, ROW_CC):
@@ -80,25 +79,29 @@ def solve_known(w, size):
             x0 -= u * w[S_CC + ROW_CC * m + X_CC]
             x1 -= u * w[S_CC + ROW_CC * m + X_CC + 1]
             x2 -= u * w[S_CC + ROW_CC * m + X_CC + 2]
-        pivot = w[row + k]
-        w[row + X_CC] = x0 / pivot if pivot > 0.0 else 0.0
-        w[row + X_CC + 1] = x1 / pivot if pivot > 0.0 else 0.0
-        w[row + X_CC + 2] = x2 / pivot if pivot > 0.0 else 0.0
+        scale = w[row + k]
+        w[row + X_CC] = x0 * scale
+        w[row + X_CC + 1] = x1 * scale
+        w[row + X_CC + 2] = x2 * scale
 
 
-def divide(w, start, pivot):
-    """Divide the vector (SIDE,) at ``start`` by ``pivot``; a pivot that is none gives zeros."""
+def inverse_root(variance, least):
+    """Return one over the root of a variance; zero where it is none: not above ``least``."""
+    return 1.0 / math.sqrt(variance) if variance > least else 0.0
+
+
+def multiply(w, start, scale):
+    """Multiply the vector (SIDE,) at ``start`` by ``scale``."""
     start &= PLACE
-    if pivot > 0.0:
-        for j in range(SIDE):
-            w[start + j] /= pivot
-    else:
-        for j in range(SIDE):
-            w[start + j] = 0.0
+    for j in range(SIDE):
+        w[start + j] *= scale
 
 
 def factor_rest(w, size):
-    """Write L of S' = S - P_c H' X = L L' to S_L and z = L^-1 y to S_DX; return the NIS z' z."""
+    """Write L of S' = S - P_c H' X = L L' to S_L and z = L^-1 y to S_DX; return the NIS z' z.
+
+    The diagonal of L is left as what it divides by, inverted.
+    """
     nis = 0.0
     for k in range(ROWS_MOST):
         for m in range(k + 1):
@@ -108,15 +111,13 @@ def factor_rest(w, size):
             for i in range(m):
                 total -= w[S_L + ROWS_MOST * k + i] * w[S_L + ROWS_MOST * m + i]
             if m == k:
-                w[S_L + ROWS_MOST * k + k] = math.sqrt(total) if total > 0.0 else 0.0
+                w[S_L + ROWS_MOST * k + k] = inverse_root(total, 0.0)
             else:
-                pivot = w[S_L + ROWS_MOST * m + m]
-                w[S_L + ROWS_MOST * k + m] = total / pivot if pivot > 0.0 else 0.0
+                w[S_L + ROWS_MOST * k + m] = total * w[S_L + ROWS_MOST * m + m]
         z = w[S_Y + k]
         for m in range(k):
             z -= w[S_L + ROWS_MOST * k + m] * w[S_DX + m]
-        pivot = w[S_L + ROWS_MOST * k + k]
-        z = z / pivot if pivot > 0.0 else 0.0
+        z = z * w[S_L + ROWS_MOST * k + k]
         w[S_DX + k] = z
         nis += z * z
     return nis
@@ -169,25 +170,20 @@ def divide_by_factor(w, side):
     l10 = w[S_L + ROWS_MOST]
     l20 = w[S_L + 2 * ROWS_MOST]
     l21 = w[S_L + 2 * ROWS_MOST + 1]
-    d0 = divisor(w[S_L])
-    d1 = divisor(w[S_L + ROWS_MOST + 1])
-    d2 = divisor(w[S_L + 2 * ROWS_MOST + 2])
+    d0 = w[S_L]
+    d1 = w[S_L + ROWS_MOST + 1]
+    d2 = w[S_L + 2 * ROWS_MOST + 2]
     gain = (S_K + side) & PLACE
     for j in range(SIDE):
         k = gain + j
-        z0 = w[k] / d0
-        z1 = (w[k + JOINT] - l10 * z0) / d1
-        z2 = (w[k + 2 * JOINT] - l20 * z0 - l21 * z1) / d2
-        k2 = z2 / d2
-        k1 = (z1 - l21 * k2) / d1
-        w[k] = (z0 - l10 * k1 - l20 * k2) / d0
+        z0 = w[k] * d0
+        z1 = (w[k + JOINT] - l10 * z0) * d1
+        z2 = (w[k + 2 * JOINT] - l20 * z0 - l21 * z1) * d2
+        k2 = z2 * d2
+        k1 = (z1 - l21 * k2) * d1
+        w[k] = (z0 - l10 * k1 - l20 * k2) * d0
         w[k + JOINT] = k1
         w[k + 2 * JOINT] = k2
-
-
-def divisor(pivot):
-    """Return what divides like ``pivot``; what gives zero when it is none."""
-    return pivot if pivot > 0.0 else math.inf
 
 
 def considering_gain(w, size):

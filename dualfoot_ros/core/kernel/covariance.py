@@ -16,6 +16,7 @@ from .layout import (
     E_ATT,
     E_BA,
     E_BG,
+    E_POS,
     E_VEL,
     PLACE,
     PLL,
@@ -27,7 +28,6 @@ from .layout import (
     ROWS_BG,
     ROWS_POS,
     ROWS_VEL,
-    S_A,
     S_CDT,
     S_SF,
 )
@@ -43,10 +43,11 @@ def add_noise(w, block, dt):
         w[block + DIAGONAL * (E_BA + i)] += w[C_Q_BA] * h
 
 
-def apply_transition(w, source, target, dt):
-    """Write Phi times the 15x16 block at ``source`` to ``target``, Phi of eqs (6)-(8).
+def apply_transition(w, block, dt):
+    """Multiply the 15x16 block at ``block`` by Phi of eqs (6)-(8) from the left, in its place.
 
-    Phi is given by S_CDT (R_nb dt) and S_SF (f_n dt) of the foot just mechanized.
+    Phi is given by S_CDT (R_nb dt) and S_SF (f_n dt) of the foot just mechanized.  One offset for
+    what is read and written lets a compiler see that columns do not depend on each other.
     """
     # f_n dt and R_nb dt: the blocks of F, eq. (6), that are neither zero nor the identity
     fx = w[S_SF]
@@ -62,12 +63,9 @@ def apply_transition(w, source, target, dt):
     c21 = w[S_CDT + 7]
     c22 = w[S_CDT + 8]
     m = 1.0 - dt * w[C_BIAS_RATE]  # first-order Markov biases
-    source &= PLACE
-    target &= PLACE
+    block &= PLACE
     for j in range(ROW):
-        p = source + j
-        q = target + j
-        # every row is read before any is written: source and target may be the same block
+        p = block + j
         v0 = w[p + ROWS_VEL]
         v1 = w[p + ROWS_VEL + ROW]
         v2 = w[p + ROWS_VEL + 2 * ROW]
@@ -81,44 +79,94 @@ def apply_transition(w, source, target, dt):
         b1 = w[p + ROWS_BA + ROW]
         b2 = w[p + ROWS_BA + 2 * ROW]
         # position: dr' = v
-        w[q + ROWS_POS] = w[p + ROWS_POS] + dt * v0
-        w[q + ROWS_POS + ROW] = w[p + ROWS_POS + ROW] + dt * v1
-        w[q + ROWS_POS + 2 * ROW] = w[p + ROWS_POS + 2 * ROW] + dt * v2
+        w[p + ROWS_POS] = w[p + ROWS_POS] + dt * v0
+        w[p + ROWS_POS + ROW] = w[p + ROWS_POS + ROW] + dt * v1
+        w[p + ROWS_POS + 2 * ROW] = w[p + ROWS_POS + 2 * ROW] + dt * v2
         # velocity: dv' = f_n x phi + R_nb b_a
-        w[q + ROWS_VEL] = v0 + (fy * a2 - fz * a1) + (c00 * b0 + c01 * b1 + c02 * b2)
-        w[q + ROWS_VEL + ROW] = v1 + (fz * a0 - fx * a2) + (c10 * b0 + c11 * b1 + c12 * b2)
-        w[q + ROWS_VEL + 2 * ROW] = v2 + (fx * a1 - fy * a0) + (c20 * b0 + c21 * b1 + c22 * b2)
+        w[p + ROWS_VEL] = v0 + (fy * a2 - fz * a1) + (c00 * b0 + c01 * b1 + c02 * b2)
+        w[p + ROWS_VEL + ROW] = v1 + (fz * a0 - fx * a2) + (c10 * b0 + c11 * b1 + c12 * b2)
+        w[p + ROWS_VEL + 2 * ROW] = v2 + (fx * a1 - fy * a0) + (c20 * b0 + c21 * b1 + c22 * b2)
         # attitude: phi' = -R_nb b_g
-        w[q + ROWS_ATT] = a0 - (c00 * g0 + c01 * g1 + c02 * g2)
-        w[q + ROWS_ATT + ROW] = a1 - (c10 * g0 + c11 * g1 + c12 * g2)
-        w[q + ROWS_ATT + 2 * ROW] = a2 - (c20 * g0 + c21 * g1 + c22 * g2)
+        w[p + ROWS_ATT] = a0 - (c00 * g0 + c01 * g1 + c02 * g2)
+        w[p + ROWS_ATT + ROW] = a1 - (c10 * g0 + c11 * g1 + c12 * g2)
+        w[p + ROWS_ATT + 2 * ROW] = a2 - (c20 * g0 + c21 * g1 + c22 * g2)
         # biases: b' = -b / tau
-        w[q + ROWS_BG] = m * g0
-        w[q + ROWS_BG + ROW] = m * g1
-        w[q + ROWS_BG + 2 * ROW] = m * g2
-        w[q + ROWS_BA] = m * b0
-        w[q + ROWS_BA + ROW] = m * b1
-        w[q + ROWS_BA + 2 * ROW] = m * b2
+        w[p + ROWS_BG] = m * g0
+        w[p + ROWS_BG + ROW] = m * g1
+        w[p + ROWS_BG + 2 * ROW] = m * g2
+        w[p + ROWS_BA] = m * b0
+        w[p + ROWS_BA + ROW] = m * b1
+        w[p + ROWS_BA + 2 * ROW] = m * b2
 
 
-def transpose(w, source, target):
-    """Write the transpose of the 15x15 block at ``source`` to ``target``."""
-    source &= PLACE
-    target &= PLACE
+def velocity_after(w, row, k):
+    """Return what a row times Phi' has at velocity ``k``."""
+    one = (k + 1) % 3
+    two = (k + 2) % 3
+    c = S_CDT + 3 * k
+    return (
+        w[row + E_VEL + k]
+        + (w[S_SF + one] * w[row + E_ATT + two] - w[S_SF + two] * w[row + E_ATT + one])
+        + (w[c] * w[row + E_BA] + w[c + 1] * w[row + E_BA + 1] + w[c + 2] * w[row + E_BA + 2])
+    )
+
+
+def attitude_after(w, row, k):
+    """Return what a row times Phi' has at attitude ``k``."""
+    c = S_CDT + 3 * k
+    return w[row + E_ATT + k] - (
+        w[c] * w[row + E_BG] + w[c + 1] * w[row + E_BG + 1] + w[c + 2] * w[row + E_BG + 2]
+    )
+
+
+def apply_from_right(w, block, dt):
+    """Multiply the 15x15 block at ``block`` by Phi' from the right, in its place.
+
+    What an element needs besides itself comes after it in its row.
+    """
+    m = 1.0 - dt * w[C_BIAS_RATE]
+    block &= PLACE
     for i in range(15):
-        for j in range(15):
-            w[target + ROW * i + j] = w[source + ROW * j + i]
+        row = block + ROW * i
+        for j in range(3):
+            w[row + E_POS + j] += dt * w[row + E_VEL + j]
+        x, y, z = velocity_after(w, row, 0), velocity_after(w, row, 1), velocity_after(w, row, 2)
+        w[row + E_VEL] = x
+        w[row + E_VEL + 1] = y
+        w[row + E_VEL + 2] = z
+        x, y, z = attitude_after(w, row, 0), attitude_after(w, row, 1), attitude_after(w, row, 2)
+        w[row + E_ATT] = x
+        w[row + E_ATT + 1] = y
+        w[row + E_ATT + 2] = z
+        for j in range(E_BG, 15):
+            w[row + j] = m * w[row + j]
 
 
-def mirror(w, source, target):
-    """Copy the upper triangle of ``source`` to both triangles of ``target``."""
-    source &= PLACE
-    target &= PLACE
-    for i in range(BLOCK):
-        w[target + i] = w[source + i]
-    for i in range(1, 15):
-        for j in range(i):
-            w[target + ROW * i + j] = w[source + ROW * j + i]
+def put_pair(w, block, i, j, value):
+    """Write element (i, j) of a symmetric block, and (j, i)."""
+    w[block + ROW * i + j] = value
+    w[block + ROW * j + i] = value
+
+
+def complete(w, block, dt):
+    """Multiply Phi P, which is at ``block``, by Phi' from the right, in its place.
+
+    The product is symmetric: the elements up to the diagonal are computed, row by row, and written
+    to both triangles, so that it is symmetric to the bit.  What is written into the rows above
+    nothing needs any more.
+    """
+    m = 1.0 - dt * w[C_BIAS_RATE]
+    block &= PLACE
+    for i in range(15):
+        row = block + ROW * i
+        for j in range(min(i + 1, E_VEL)):
+            put_pair(w, block, i, j, w[row + j] + dt * w[row + E_VEL + j])
+        for j in range(E_VEL, min(i + 1, E_ATT)):
+            put_pair(w, block, i, j, velocity_after(w, row, j - E_VEL))
+        for j in range(E_ATT, min(i + 1, E_BG)):
+            put_pair(w, block, i, j, attitude_after(w, row, j - E_ATT))
+        for j in range(E_BG, i + 1):
+            put_pair(w, block, i, j, m * w[row + j])
 
 
 def propagate_foot(w, foot, dt, coupled=True):
@@ -130,25 +178,18 @@ def propagate_foot(w, foot, dt, coupled=True):
     if foot == 0:
         propagate_block(w, PLL, dt)
         if coupled:
-            apply_transition(w, PLR, PLR, dt)
+            apply_transition(w, PLR, dt)
     else:
         propagate_block(w, PRR, dt)
         if coupled:
-            transpose(w, PLR, S_A)
-            apply_transition(w, S_A, S_A, dt)
-            transpose(w, S_A, PLR)
+            apply_from_right(w, PLR, dt)
 
 
 def propagate_block(w, block, dt):
-    """Propagate a foot's own block, eq. (8): Phi (P + Q dt/2) Phi' + Q dt/2.
-
-    Phi P Phi' is taken as (Phi (Phi P)')'.
-    """
+    """Propagate a foot's own block, eq. (8): Phi (P + Q dt/2) Phi' + Q dt/2."""
     add_noise(w, block, dt)
-    apply_transition(w, block, block, dt)
-    transpose(w, block, S_A)
-    apply_transition(w, S_A, S_A, dt)
-    mirror(w, S_A, block)  # one triangle is computed, so P stays symmetric to the bit
+    apply_transition(w, block, dt)
+    complete(w, block, dt)
     add_noise(w, block, dt)
 
 

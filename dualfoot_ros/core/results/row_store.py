@@ -41,7 +41,10 @@ class RowStore:
             self._present[places, foot] = rows[:, foot * lay.O_FOOT + lay.O_PRESENT] > 0.0
         self._nis[places] = zupt_nis(rows)
         if self._with_covariances:
-            self._triangles[places] = np.take(rows, TRIANGLES, axis=1)
+            if isinstance(places, slice):  # without an array in between
+                np.take(rows, TRIANGLES, 1, self._triangles[places], mode="clip")
+            else:
+                self._triangles[places] = np.take(rows, TRIANGLES, axis=1)
         last = places.stop - 1 if isinstance(places, slice) else places[-1]
         if len(rows) and last >= self._newest:
             self._newest, self._heading_std = last, _heading_std(rows[-1])

@@ -25,7 +25,7 @@ def measured(seed: int) -> np.ndarray:
 @pytest.mark.filterwarnings("error::RuntimeWarning")
 @pytest.mark.parametrize("before", ["all", "common"])
 def test_what_an_update_with_more_states_has_left_does_not_grow_in_those_with_fewer(before):
-    """Rows are divided as a whole: it overflowed on a walk, though nothing read it."""
+    """Rows are scaled as a whole: it overflowed on a walk, though nothing read it."""
     w = measured(1)
     if before == "all":
         consider_all(w)

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
 Row = Mapping[int, float]
 
-ROUNDING = 1e-13  # relative size below which a variance is a rounding error
-
 
 class HeadingCorrection(StrEnum):
     """What an update may correct of the headings and the gyro biases of the feet.
@@ -43,6 +41,7 @@ class HeadingCorrection(StrEnum):
 
 
 LEFT_ALONE = {
+    HeadingCorrection.FULL: lay.KNOW_NOTHING,
     HeadingCorrection.DIFFERENCE: lay.KNOW_COMMON,
     HeadingCorrection.NONE: lay.KNOW_ALL,
     HeadingCorrection.BIAS: lay.KEEP_PLACE,
@@ -72,6 +71,13 @@ def nothing_done(payload: Payload, reason: StrEnum, size: int = 0) -> Outcome:
     return Outcome(np.zeros(size), np.zeros((size, size)), nis, False, payload, reason)
 
 
+def measured(nis: float, found: Sequence[float], rows: int, payload: Payload) -> Outcome:
+    """Return the outcome of an update of so many ``rows`` that ``JointEstimate.act`` has made."""
+    innovation = np.array(found[lay.X_Y : lay.X_Y + rows])
+    S = np.array(found[lay.X_S : lay.X_S + lay.ROWS_MOST**2]).reshape(3, 3)[:rows, :rows]
+    return Outcome(innovation, S, nis, True, payload)
+
+
 class JointEstimate:
     """Both feet's states with their joint covariance.
 
@@ -82,6 +88,7 @@ class JointEstimate:
     def __init__(self, workspace: Workspace, engine: Engine) -> None:
         """Look at the present state of ``workspace``."""
         self._space, self._engine = workspace, engine
+        self._x = np.zeros(lay.X_SIZE)
 
     def position(self, foot: int) -> FloatArray:
         """Return the position (3,) m of foot 0 (left) or 1 (right)."""
@@ -164,8 +171,9 @@ class JointEstimate:
 
     def variance(self, rows: Sequence[Row]) -> FloatArray:
         """Return H P H' (m, m) of up to three rows, each {error state: coefficient}."""
-        self._collect(rows)
+        self._put(rows)
         m = len(rows)
+        self._engine.collect(self._space.w, m)
         return self._space.w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
 
     def update(
@@ -182,21 +190,21 @@ class JointEstimate:
         mere rounding counts as none: what an exact constraint has settled stays settled.
         ``heading`` is what the update may correct of headings and gyro biases.
         """
-        w = self._space.w
-        self._collect(rows)
         m = len(rows)
-        if any(map(observes_height, rows)):
-            w[lay.WALKED] = 0.0
-        own = [w[at : at + lay.BLOCK : lay.DIAGONAL].tolist() for at in (lay.PLL, lay.PRR)]
-        for i, row in enumerate(rows):
-            variance = w.item(lay.S_S + 4 * i)
-            known = variance < ROUNDING * magnitude(row, own[0] + own[1])
-            w[lay.S_S + 4 * i] = (0.0 if known else variance) + variances[i]
-            w[lay.S_Y + i] = innovation[i]
-        s = w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
-        if heading is HeadingCorrection.FULL:
-            return s, float(self._engine.correct(w, m))
-        return s, float(self._engine.correct_considering(w, m, LEFT_ALONE[heading]))
+        self._put(rows)
+        x = self._x
+        x[lay.X_Y : lay.X_Y + m] = innovation
+        x[lay.X_NOISE : lay.X_NOISE + m] = variances
+        nis = self._engine.observe(self._space.w, x, m, LEFT_ALONE[heading])
+        return x[lay.X_S : lay.X_S + 9].reshape(3, 3)[:m, :m].copy(), float(nis)
+
+    def act(self, entry: str, *given: float) -> tuple[float, list[float]]:
+        """Run an ``entry`` of the kernel that acts at a stance, with what it is ``given``.
+
+        Returns the NIS and what the entry has left in the array (X_SIZE,) beside the workspace.
+        """
+        nis: float = getattr(self._engine, entry)(self._space.w, self._x, *given)
+        return float(nis), self._x.tolist()
 
     def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
         """Update with one measurement whose statistics are known; return the NIS.
@@ -212,27 +220,14 @@ class JointEstimate:
         w[lay.S_S], w[lay.S_Y] = s, innovation
         return float(self._engine.correct(w, 1))
 
-    def _collect(self, rows: Sequence[Row]) -> None:
+    def _put(self, rows: Sequence[Row]) -> None:
+        """Write the measurement matrix."""
         w = self._space.w
         w[lay.S_H : lay.S_H + lay.ROWS_MOST * lay.JOINT] = 0.0
         for k, row in enumerate(rows):
             for state, coefficient in row.items():
                 pad = lay.SIDE - lay.ERRORS if state >= lay.ERRORS else 0
                 w[lay.S_H + lay.JOINT * k + state + pad] = coefficient
-        self._engine.collect(w, len(rows))
-
-
-def magnitude(row: Row, variances: Sequence[float]) -> float:
-    """Return the greatest variance that states of ``variances`` (30,) can give ``row``."""
-    total = 0.0
-    for state, coefficient in row.items():
-        total += abs(coefficient) * math.sqrt(max(0.0, variances[state]))
-    return total * total
-
-
-def observes_height(row: Row) -> bool:
-    """Return whether ``row`` measures a height, and not how high one foot is above the other."""
-    return abs(sum(row.get(lay.position_row(foot, 2), 0.0) for foot in range(2))) > ROUNDING
 
 
 def relative_row(direction: Sequence[float]) -> dict[int, float]:

@@ -70,12 +70,18 @@ class WalkState:
         self.engine = engine
         self.estimate = JointEstimate(self.space, engine)
         self.roll_back.use(engine, self.estimate)
+        self._learn_with(engine)
+
+    def _learn_with(self, engine: Engine) -> None:
+        if self.method.spacing is not None:
+            self.method.spacing.use(engine)
 
     def retune(self, config: TrackerConfig, aids: Sequence[Method]) -> None:
         """Go on with other weights, thresholds, aids and distances."""
         self.aids = aids
         self.initial.retune(config)
         self.method.retune(config.constraint)
+        self._learn_with(self.engine)
         self.carriage.retune(config.floor)
         self.forget()
 

@@ -201,10 +201,24 @@ class JointEstimate:
     def act(self, entry: str, *given: float) -> tuple[float, list[float]]:
         """Run an ``entry`` of the kernel that acts at a stance, with what it is ``given``.
 
-        Returns the NIS and what the entry has left in the array (X_SIZE,) beside the workspace.
+        Returns what the entry returns, and the array (X_SIZE,) in which it has left more.
         """
-        nis: float = getattr(self._engine, entry)(self._space.w, self._x, *given)
-        return float(nis), self._x.tolist()
+        result = getattr(self._engine, entry)(self._space.w, self._x, *given)
+        return float(result), self._x.tolist()
+
+    def constrain_distance(
+        self, c0: float, std: float, *, solves: bool, separation: Sequence[float] | None = None
+    ) -> tuple[bool, list[float]]:
+        """Bring the feet to ``c0`` m, known to ``std`` m, if they are farther apart.
+
+        ``separation`` (3,) m is left minus right position, where it is not that of now; unless the
+        kernel ``solves`` the state stays as it is.  Returns whether they are, and what was found.
+        """
+        given = (0.0, 0.0, 0.0) if separation is None else separation
+        exceeds, found = self.act(
+            "constrain_distance", c0, std, solves, separation is not None, *given
+        )
+        return exceeds != 0.0, found
 
     def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
         """Update with one measurement whose statistics are known; return the NIS.

@@ -43,5 +43,6 @@ ENTRY_KINDS = {
     "closest": Entry((_W, _X, _X)),
     "observe": Entry((_W, _W, _I, _I), _X),
     "constrain_spacing": Entry((_W, _W, _X, _X, _X, _X, _X, _I, _I), _X),
+    "constrain_distance": Entry((_W, _W, _X, _X, _I, _I, _X, _X, _X), _I),
     "learn_spacing": Entry((_W, _X, _X, _X, _X, _X, _X)),
 }

@@ -79,6 +79,8 @@ def _constrained(functions: Calls, w: FloatArray) -> Iterator[bytes]:
     for lateral, kind in ((0, lay.KNOW_COMMON), (1, lay.KNOW_NOTHING)):
         nis = functions["constrain_spacing"](w, x, 0.6, 0.8, 0.15, 0.08, 0.15, lateral, kind)
         yield w.tobytes() + np.append(x, nis).tobytes()
+    exceeds = functions["constrain_distance"](w, x, 0.1, 0.05, 1, 0, 0.0, 0.0, 0.0)
+    yield w.tobytes() + np.append(x, exceeds).tobytes()
     learnt = np.zeros(lay.L_SIZE)
     learnt[lay.L_COVARIANCE : lay.L_BEGUN] = (0.01 * np.eye(4) + 0.001).ravel()
     for _ in range(2):

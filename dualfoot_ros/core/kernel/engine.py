@@ -27,7 +27,13 @@ from . import (
     turn,
     zero_velocity,
 )
-from .at_stances import observation, separation, spacing_constraint, spacing_learner
+from .at_stances import (
+    distance_constraint,
+    observation,
+    separation,
+    spacing_constraint,
+    spacing_learner,
+)
 
 MODULES = (
     closest,
@@ -46,6 +52,7 @@ MODULES = (
     separation,
     observation,
     spacing_constraint,
+    distance_constraint,
     spacing_learner,
 )
 ENTRIES = (
@@ -61,6 +68,7 @@ ENTRIES = (
     "closest",
     "observe",
     "constrain_spacing",
+    "constrain_distance",
     "learn_spacing",
 )
 
@@ -82,6 +90,7 @@ class Engine:
     closest: Callable[..., Any]
     observe: Callable[..., Any]
     constrain_spacing: Callable[..., Any]
+    constrain_distance: Callable[..., Any]
     learn_spacing: Callable[..., Any]
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from .kernel import Workspace
 from .kernel import layout as lay
 from .samples.series import FloatArray
@@ -38,7 +36,8 @@ class GaitHistory:
 
     def in_stance(self, foot: int, epoch: int) -> bool:
         """Return whether ``foot`` had zero velocity at ``epoch``."""
-        return bool((int(self._space.n[lay.N_FLAGS + epoch % self._space.ring]) >> foot) & 1)
+        space = self._space
+        return bool((space.n.item(lay.N_FLAGS + epoch % space.ring) >> foot) & 1)
 
     def remembers(self, epoch: int) -> bool:
         """Return whether the filter can be rolled back to just after ``epoch``."""
@@ -47,9 +46,8 @@ class GaitHistory:
     def positions_after(self, epoch: int) -> FloatArray:
         """Return both feet's positions (2, 3) m as estimated at ``epoch``."""
         state = self._space.snapshot(epoch + 1)
-        return np.array(
-            [state[f * lay.FOOT + lay.POS : f * lay.FOOT + lay.POS + 3] for f in (0, 1)]
-        )
+        feet = state[: 2 * lay.FOOT].reshape(2, lay.FOOT)
+        return feet[:, lay.POS : lay.POS + 3].copy()
 
     def stamp(self, epoch: int, default: int = 0) -> int:
         """Return the stamp in ns of ``epoch``, or ``default`` when it is forgotten."""

@@ -40,7 +40,7 @@ class HeadingCorrection(StrEnum):
     BIAS = "bias"
 
 
-LEFT_ALONE = {
+LEFT_ALONE: Mapping[str, int] = {
     HeadingCorrection.FULL: lay.KNOW_NOTHING,
     HeadingCorrection.DIFFERENCE: lay.KNOW_COMMON,
     HeadingCorrection.NONE: lay.KNOW_ALL,
@@ -69,13 +69,6 @@ def nothing_done(payload: Payload, reason: StrEnum, size: int = 0) -> Outcome:
     """Return the outcome of a constraint that was not applied, its innovation (size,) zero."""
     nis = 0.0 if size else math.nan
     return Outcome(np.zeros(size), np.zeros((size, size)), nis, False, payload, reason)
-
-
-def measured(nis: float, found: Sequence[float], rows: int, payload: Payload) -> Outcome:
-    """Return the outcome of an update of so many ``rows`` that ``JointEstimate.act`` has made."""
-    innovation = np.array(found[lay.X_Y : lay.X_Y + rows])
-    S = np.array(found[lay.X_S : lay.X_S + lay.ROWS_MOST**2]).reshape(3, 3)[:rows, :rows]
-    return Outcome(innovation, S, nis, True, payload)
 
 
 class JointEstimate:
@@ -196,7 +189,7 @@ class JointEstimate:
         x[lay.X_Y : lay.X_Y + m] = innovation
         x[lay.X_NOISE : lay.X_NOISE + m] = variances
         nis = self._engine.observe(self._space.w, x, m, LEFT_ALONE[heading])
-        return x[lay.X_S : lay.X_S + 9].reshape(3, 3)[:m, :m].copy(), float(nis)
+        return self.measured(m)[1], float(nis)
 
     def act(self, entry: str, *given: float) -> tuple[float, list[float]]:
         """Run an ``entry`` of the kernel that acts at a stance, with what it is ``given``.
@@ -219,6 +212,22 @@ class JointEstimate:
             "constrain_distance", c0, std, solves, separation is not None, *given
         )
         return exceeds != 0.0, found
+
+    def measured(self, rows: int) -> tuple[FloatArray, FloatArray]:
+        """Return innovation (m,) and S (m, m) of the ``rows`` that `act` has updated with."""
+        x = self._x
+        S = x[lay.X_S : lay.X_S + 9].reshape(3, 3)[:rows, :rows]
+        return x[lay.X_Y : lay.X_Y + rows].copy(), S.copy()
+
+    def landing(self, foot: int, std: float) -> tuple[float, list[float]]:
+        """Return NIS and velocity (3,) m/s of foot 0 or 1 when its present stance began.
+
+        A landing has a velocity of ``std`` m/s beside what the state says.  The NIS is -1 where
+        the stance has begun before all that is remembered.
+        """
+        space, x = self._space, self._x
+        nis: float = self._engine.landing(space.w, space.n, x, foot, std)
+        return nis, x[lay.X_VELOCITY : lay.X_VELOCITY + 3].tolist()
 
     def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
         """Update with one measurement whose statistics are known; return the NIS.

@@ -45,4 +45,5 @@ ENTRY_KINDS = {
     "constrain_spacing": Entry((_W, _W, _X, _X, _X, _X, _X, _I, _I), _X),
     "constrain_distance": Entry((_W, _W, _X, _X, _I, _I, _X, _X, _X), _I),
     "learn_spacing": Entry((_W, _X, _X, _X, _X, _X, _X)),
+    "landing": Entry((_W, _N, _W, _I, _X), _X),
 }

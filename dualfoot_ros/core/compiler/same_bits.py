@@ -46,6 +46,9 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     for kind in (None, lay.KNOW_ALL, lay.KNOW_COMMON, lay.KEEP_PLACE, lay.KNOW_NOTHING):
         yield _updated(functions, w, kind)
     yield from _constrained(functions, w)
+    x = np.zeros(lay.X_SIZE)
+    nis = functions["landing"](w, n, x, 1, 0.06)
+    yield np.append(x, nis).tobytes()
     for foot in range(2):
         functions["turn"](w, 0, foot, 0.6, 0.8, np.array([0.3, 0.7]), np.array([1.0, 2.0, 0.1]))
     yield w.tobytes()

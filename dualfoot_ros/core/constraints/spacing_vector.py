@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from ..joint_estimate import LEFT_ALONE, HeadingCorrection, JointEstimate, Outcome, measured
+from ..joint_estimate import LEFT_ALONE, JointEstimate, Outcome
 from ..kernel import layout as lay
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit, Passing
@@ -87,8 +87,7 @@ class SpacingVector(Method):
 
     def __init__(self, config: SpacingVectorConfig) -> None:
         """Use ``config``."""
-        self.config = config
-        self.dimensions = (2 if config.variant == "vector" else 1) + (config.height_std > 0.0)
+        self.config, self.dimensions = config, rows_of(config)
         self.spacing = Spacing(config.spacing)
         self.memory_s = config.max_stance
 
@@ -97,7 +96,7 @@ class SpacingVector(Method):
         assert isinstance(config, SpacingVectorConfig)
         if config.spacing != self.config.spacing:
             self.spacing = Spacing(config.spacing)
-        self.config = config
+        self.config, self.dimensions = config, rows_of(config)
 
     def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
         """Return the constraint of a stance that was a step."""
@@ -141,7 +140,7 @@ class SpacingVector(Method):
             config.spacing_std,
             config.height_std,
             config.variant == "lateral",
-            LEFT_ALONE[HeadingCorrection(config.heading_correction)],
+            LEFT_ALONE[config.heading_correction],
         )
         passing = Passing(
             DistanceLimit(found[lay.X_DISTANCE], spacing),
@@ -150,4 +149,9 @@ class SpacingVector(Method):
             found[lay.X_AFTER : lay.X_AFTER + 3],
             found[lay.X_LATERAL],
         )
-        return measured(nis, found, int(found[lay.X_ROWS]), passing)
+        return Outcome(*estimate.measured(self.dimensions), nis, True, passing)
+
+
+def rows_of(config: SpacingVectorConfig) -> int:
+    """Return how many rows the constraint has."""
+    return (2 if config.variant == "vector" else 1) + (config.height_std > 0.0)

@@ -29,6 +29,7 @@ from . import (
 )
 from .at_stances import (
     distance_constraint,
+    landing,
     observation,
     separation,
     spacing_constraint,
@@ -54,6 +55,7 @@ MODULES = (
     spacing_constraint,
     distance_constraint,
     spacing_learner,
+    landing,
 )
 ENTRIES = (
     "advance",
@@ -70,6 +72,7 @@ ENTRIES = (
     "constrain_spacing",
     "constrain_distance",
     "learn_spacing",
+    "landing",
 )
 
 
@@ -92,6 +95,7 @@ class Engine:
     constrain_spacing: Callable[..., Any]
     constrain_distance: Callable[..., Any]
     learn_spacing: Callable[..., Any]
+    landing: Callable[..., Any]
 
 
 def kernel_functions() -> dict[str, types.FunctionType]:

@@ -148,12 +148,12 @@ M_SIZE = 35
 X_Y = M_SIZE  # innovation (3,)
 X_NOISE = X_Y + ROWS_MOST  # variances of it that are not of the state (3,)
 X_S = X_NOISE + ROWS_MOST  # innovation covariance (3, 3)
-X_ROWS = X_S + ROWS_MOST * ROWS_MOST  # how many of them there are
-X_BEFORE = X_ROWS + 1  # separation of the feet (3,) m that was constrained
+X_BEFORE = X_S + ROWS_MOST * ROWS_MOST  # separation of the feet (3,) m that was constrained
 X_NOW = X_BEFORE + 3  # what it is at the time of the constraint
 X_AFTER = X_NOW + 3  # the same with the constraint
 X_DISTANCE, X_LATERAL = X_AFTER + 3, X_AFTER + 4  # of X_BEFORE: length, component to the left, m
-X_SIZE = X_LATERAL + 1
+X_VELOCITY = X_LATERAL + 1  # of a landing (3,) m/s
+X_SIZE = X_VELOCITY + 3
 
 # --- the array of the spacing that is learnt, a filter of its own --------------------------------
 L_STATE = 0  # spacing, placement (2,), advance a passing, m

@@ -31,7 +31,7 @@ class Notices:
     def attend(self) -> Found:
         """Do what the newest epoch's notices ask for."""
         walk = self._walk
-        notices = int(walk.space.n[lay.N_NOTICE])
+        notices = walk.space.n.item(lay.N_NOTICE)
         bits = [notices & 15, notices >> lay.NOTICE_SHIFT]
         walk.roll_back.clean_phases(bits)
         found = self._presence(notices) if notices & PRESENCE else []
@@ -78,7 +78,7 @@ class Notices:
 
     def _phase(self, foot: int, last: int) -> StancePhase:
         walk = self._walk
-        lag = 0.5 * (int(walk.space.n[lay.N_WINDOW]) - 1)
+        lag = 0.5 * (walk.space.n.item(lay.N_WINDOW) - 1)
         first = walk.space.foot(foot, "N_START")
         period, heading = walk.gait.period_s, walk.headings.mean
         return StancePhase(foot, first, last, lag, walk.space.epoch, period, heading)
@@ -90,7 +90,7 @@ class Notices:
         found = [Event(EventKind.STANCE_START, stamp, FEET[foot], now)]
         found += self._lost(foot, stamp, now)
         if walk.watches_floor:
-            found += walk.carriage.landed(foot, heading_known=walk.headings.known)
+            found += walk.carriage.landed(foot, walk.estimate, heading_known=walk.headings.known)
         if walk.absences.of[foot] is Presence.BACK:
             walk.absences.level(foot)
             walk.forget()
@@ -106,7 +106,7 @@ class Notices:
         joined = walk.absences.of[foot] is Presence.JOINED
         if not (joined and walk.headings.known and walk.carriage.kind is None):
             return []
-        speed = lost_speed(walk.space, foot)
+        speed = lost_speed(walk.estimate, foot)
         if speed is None:
             return []
         ended = walk.gait.ended[foot]

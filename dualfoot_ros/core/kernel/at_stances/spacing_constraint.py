@@ -14,7 +14,6 @@ from ..layout import (
     X_DISTANCE,
     X_LATERAL,
     X_NOISE,
-    X_ROWS,
     X_Y,
 )
 from ..turn import keeps_gauge
@@ -62,7 +61,6 @@ def constrain_spacing(w, x, ahead_x, ahead_y, spacing, std, height_std, lateral,
         put_relative_row(w, rows, 0.0, 0.0, 1.0)
         measure(x, rows, x[X_BEFORE + 2], max(height_std * height_std, LEAST_NOISE))
         rows += 1
-    x[X_ROWS] = rows
     nis = observe(w, x, rows, kind)
     separation(w, x, X_AFTER)
     return nis

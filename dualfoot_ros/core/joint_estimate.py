@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -69,6 +69,16 @@ def nothing_done(payload: Payload, reason: StrEnum, size: int = 0) -> Outcome:
     """Return the outcome of a constraint that was not applied, its innovation (size,) zero."""
     nis = 0.0 if size else math.nan
     return Outcome(np.zeros(size), np.zeros((size, size)), nis, False, payload, reason)
+
+
+class Touchdown(NamedTuple):
+    """The velocity (3,) m/s of a foot when its stance began, and its NIS.
+
+    The NIS is -1 where the stance has begun before all that is remembered.
+    """
+
+    nis: float
+    velocity: list[float]
 
 
 class JointEstimate:
@@ -219,15 +229,14 @@ class JointEstimate:
         S = x[lay.X_S : lay.X_S + 9].reshape(3, 3)[:rows, :rows]
         return x[lay.X_Y : lay.X_Y + rows].copy(), S.copy()
 
-    def landing(self, foot: int, std: float) -> tuple[float, list[float]]:
-        """Return NIS and velocity (3,) m/s of foot 0 or 1 when its present stance began.
+    def touchdown(self, foot: int, std: float) -> Touchdown:
+        """Return how foot 0 or 1 came to its present stance.
 
-        A landing has a velocity of ``std`` m/s beside what the state says.  The NIS is -1 where
-        the stance has begun before all that is remembered.
+        A landing has a velocity of ``std`` m/s beside what the state says.
         """
         space, x = self._space, self._x
         nis: float = self._engine.landing(space.w, space.n, x, foot, std)
-        return nis, x[lay.X_VELOCITY : lay.X_VELOCITY + 3].tolist()
+        return Touchdown(nis, x[lay.X_VELOCITY : lay.X_VELOCITY + 3].tolist())
 
     def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
         """Update with one measurement whose statistics are known; return the NIS.

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..gait_history import GaitHistory
-from ..joint_estimate import JointEstimate
+from ..joint_estimate import Touchdown
 from ..kernel import Workspace
 from ..kernel import layout as lay
 from ..samples.series import FloatArray
@@ -72,9 +72,9 @@ class Boarding:
         self._before = None
         self._fast = [True, True, True]
 
-    def landed(self, foot: int, estimate: JointEstimate) -> Step | None:
-        """Take the stance of ``foot`` that has been confirmed; return a step between floors."""
-        landing = self._landing(foot, estimate)
+    def landed(self, foot: int, touchdown: Touchdown) -> Step | None:
+        """Take the stance of ``foot`` that is confirmed; return a step between floors."""
+        landing = self._landing(foot, touchdown)
         before, self._before = self._before, landing
         if (
             before is None
@@ -96,16 +96,15 @@ class Boarding:
         """Return the stamp of the first sample of the stance of ``foot``, ns."""
         return self._gait.stamp(self._space.foot(foot, "N_START"))
 
-    def _landing(self, foot: int, estimate: JointEstimate) -> Landing | None:
+    def _landing(self, foot: int, touchdown: Touchdown) -> Landing | None:
         """Return the landing of ``foot`` if its velocity is none that a landing has."""
-        nis, found = estimate.landing(foot, LANDING_STD)
-        if nis < 0.0:
+        if touchdown.nis < 0.0:
             return None
-        fast = nis > self.gate
+        fast = touchdown.nis > self.gate
         self._fast = [*self._fast[1:], fast]
         if not fast:
             return None
-        velocity, first = np.array(found), self._space.foot(foot, "N_START")
+        velocity, first = np.array(touchdown.velocity), self._space.foot(foot, "N_START")
         if float(velocity @ velocity) > FASTEST**2:
             return None
         if not self._steady(foot, first, velocity):

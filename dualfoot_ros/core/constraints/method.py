@@ -115,6 +115,11 @@ class Method:
         """Use ``config``, an instance of ``config_class``."""
         self.config = config
 
+    @property
+    def asks_at_start(self) -> bool:
+        """Whether the start of a stance is anything to it."""
+        return type(self).on_stance_start is not Method.on_stance_start
+
     def retune(self, config: Parameters) -> None:
         """Go on with other weights and distances of ``config``."""
         self.config = config

@@ -13,10 +13,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-from ..carried.boarding import LANDING_STD
 from ..carried.probability import nis_gate
 from ..constraints import Request
-from ..joint_estimate import JointEstimate, Outcome
+from ..joint_estimate import JointEstimate, Outcome, Touchdown
 from ..kernel import Workspace
 from ..kernel import layout as lay
 from ..results.payloads import Reason
@@ -26,12 +25,11 @@ LEAST_SPEED = 1.5  # m/s; floors do 1, and a hole that was filled leaves up to 1
 MISFIT = 20.0  # NIS a row of a constraint beyond which the feet cannot be where they seem to be
 
 
-def lost_speed(estimate: JointEstimate, foot: int) -> float | None:
-    """Return how fast ``foot`` has landed, m/s, if no foot can; None if it has not."""
-    nis, velocity = estimate.landing(foot, LANDING_STD)
-    if not nis > LOST_GATE:
+def lost_speed(touchdown: Touchdown) -> float | None:
+    """Return how fast a foot has landed, m/s, if no foot can; None if it has not."""
+    if not touchdown.nis > LOST_GATE:
         return None
-    speed = math.hypot(*velocity)
+    speed = math.hypot(*touchdown.velocity)
     return speed if speed >= LEAST_SPEED else None
 
 

@@ -129,11 +129,13 @@ class WalkState:
         if not requests:
             return []
         done = self.roll_back.apply([doubting(self.space, request) for request in requests])
-        for _, outcome in done:
+        found = []
+        for request, outcome in done:
             if outcome.reason is not Reason.DID_NOT_FIT:
                 method.note(outcome)
             self.carriage.constrained(outcome)
-        return [self._event(foot, *pair) for pair in done]
+            found.append(self._event(foot, request, outcome))
+        return found
 
     def _event(self, foot: str, request: Request, outcome: Outcome) -> Event:
         return Event(

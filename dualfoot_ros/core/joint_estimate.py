@@ -225,9 +225,9 @@ class JointEstimate:
 
     def measured(self, rows: int) -> tuple[FloatArray, FloatArray]:
         """Return innovation (m,) and S (m, m) of the ``rows`` that `act` has updated with."""
-        x = self._x
-        S = x[lay.X_S : lay.X_S + 9].reshape(3, 3)[:rows, :rows]
-        return x[lay.X_Y : lay.X_Y + rows].copy(), S.copy()
+        kept = self._x[lay.X_Y : lay.X_BEFORE].copy()
+        S = kept[lay.X_S - lay.X_Y :].reshape(lay.ROWS_MOST, lay.ROWS_MOST)
+        return kept[:rows], S[:rows, :rows]
 
     def touchdown(self, foot: int, std: float) -> Touchdown:
         """Return how foot 0 or 1 came to its present stance.

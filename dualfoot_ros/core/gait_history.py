@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from .kernel import Workspace
 from .kernel import layout as lay
 from .samples.series import FloatArray
@@ -14,7 +12,7 @@ class GaitHistory:
 
     def __init__(self, space: Workspace) -> None:
         """Look at ``space``."""
-        self._space = space
+        self._space, self._ring = space, space.ring
         self.period_s = 1.0 / space.rate_hz
         self.ended = [-1, -1]
 
@@ -38,23 +36,23 @@ class GaitHistory:
 
     def in_stance(self, foot: int, epoch: int) -> bool:
         """Return whether ``foot`` had zero velocity at ``epoch``."""
-        return bool((int(self._space.n[lay.N_FLAGS + epoch % self._space.ring]) >> foot) & 1)
+        flags = self._space.n.item(lay.N_FLAGS + epoch % self._ring)
+        return bool((flags >> foot) & 1)
 
     def remembers(self, epoch: int) -> bool:
         """Return whether the filter can be rolled back to just after ``epoch``."""
-        return self._space.oldest <= epoch + 1 <= self._space.epoch
+        n = self._space.n
+        return bool(n.item(lay.N_OLDEST) <= epoch + 1 <= n.item(lay.N_EPOCH))
 
     def positions_after(self, epoch: int) -> FloatArray:
         """Return both feet's positions (2, 3) m as estimated at ``epoch``."""
         state = self._space.snapshot(epoch + 1)
-        return np.array(
-            [state[f * lay.FOOT + lay.POS : f * lay.FOOT + lay.POS + 3] for f in (0, 1)]
-        )
+        feet = state[: 2 * lay.FOOT].reshape(2, lay.FOOT)
+        return feet[:, lay.POS : lay.POS + 3].copy()
 
     def stamp(self, epoch: int, default: int = 0) -> int:
         """Return the stamp in ns of ``epoch``, or ``default`` when it is forgotten."""
-        space = self._space
-        newest, ring = space.epoch, space.ring
+        newest, ring = self._space.n.item(lay.N_EPOCH), self._ring
         if not newest - ring < epoch <= newest:
             return default
-        return space.stamps.item(epoch % ring)
+        return self._space.stamps.item(epoch % ring)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from .kernel.workspace import Workspace
 
 Row = Mapping[int, float]
-
-ROUNDING = 1e-13  # relative size below which a variance is a rounding error
 
 
 class HeadingCorrection(StrEnum):
@@ -42,7 +40,8 @@ class HeadingCorrection(StrEnum):
     BIAS = "bias"
 
 
-LEFT_ALONE = {
+LEFT_ALONE: Mapping[str, int] = {
+    HeadingCorrection.FULL: lay.KNOW_NOTHING,
     HeadingCorrection.DIFFERENCE: lay.KNOW_COMMON,
     HeadingCorrection.NONE: lay.KNOW_ALL,
     HeadingCorrection.BIAS: lay.KEEP_PLACE,
@@ -72,6 +71,16 @@ def nothing_done(payload: Payload, reason: StrEnum, size: int = 0) -> Outcome:
     return Outcome(np.zeros(size), np.zeros((size, size)), nis, False, payload, reason)
 
 
+class Touchdown(NamedTuple):
+    """The velocity (3,) m/s of a foot when its stance began, and its NIS.
+
+    The NIS is -1 where the stance has begun before all that is remembered.
+    """
+
+    nis: float
+    velocity: list[float]
+
+
 class JointEstimate:
     """Both feet's states with their joint covariance.
 
@@ -82,6 +91,7 @@ class JointEstimate:
     def __init__(self, workspace: Workspace, engine: Engine) -> None:
         """Look at the present state of ``workspace``."""
         self._space, self._engine = workspace, engine
+        self._x = np.zeros(lay.X_SIZE)
 
     def position(self, foot: int) -> FloatArray:
         """Return the position (3,) m of foot 0 (left) or 1 (right)."""
@@ -164,8 +174,9 @@ class JointEstimate:
 
     def variance(self, rows: Sequence[Row]) -> FloatArray:
         """Return H P H' (m, m) of up to three rows, each {error state: coefficient}."""
-        self._collect(rows)
+        self._put(rows)
         m = len(rows)
+        self._engine.collect(self._space.w, m)
         return self._space.w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
 
     def update(
@@ -182,21 +193,50 @@ class JointEstimate:
         mere rounding counts as none: what an exact constraint has settled stays settled.
         ``heading`` is what the update may correct of headings and gyro biases.
         """
-        w = self._space.w
-        self._collect(rows)
         m = len(rows)
-        if any(map(observes_height, rows)):
-            w[lay.WALKED] = 0.0
-        own = [w[at : at + lay.BLOCK : lay.DIAGONAL].tolist() for at in (lay.PLL, lay.PRR)]
-        for i, row in enumerate(rows):
-            variance = w.item(lay.S_S + 4 * i)
-            known = variance < ROUNDING * magnitude(row, own[0] + own[1])
-            w[lay.S_S + 4 * i] = (0.0 if known else variance) + variances[i]
-            w[lay.S_Y + i] = innovation[i]
-        s = w[lay.S_S : lay.S_S + 9].reshape(3, 3)[:m, :m].copy()
-        if heading is HeadingCorrection.FULL:
-            return s, float(self._engine.correct(w, m))
-        return s, float(self._engine.correct_considering(w, m, LEFT_ALONE[heading]))
+        self._put(rows)
+        x = self._x
+        x[lay.X_Y : lay.X_Y + m] = innovation
+        x[lay.X_NOISE : lay.X_NOISE + m] = variances
+        nis = self._engine.observe(self._space.w, x, m, LEFT_ALONE[heading])
+        return self.measured(m)[1], float(nis)
+
+    def act(self, entry: str, *given: float) -> tuple[float, list[float]]:
+        """Run an ``entry`` of the kernel that acts at a stance, with what it is ``given``.
+
+        Returns what the entry returns, and the array (X_SIZE,) in which it has left more.
+        """
+        result = getattr(self._engine, entry)(self._space.w, self._x, *given)
+        return float(result), self._x.tolist()
+
+    def constrain_distance(
+        self, c0: float, std: float, *, solves: bool, separation: Sequence[float] | None = None
+    ) -> tuple[bool, list[float]]:
+        """Bring the feet to ``c0`` m, known to ``std`` m, if they are farther apart.
+
+        ``separation`` (3,) m is left minus right position, where it is not that of now; unless the
+        kernel ``solves`` the state stays as it is.  Returns whether they are, and what was found.
+        """
+        given = (0.0, 0.0, 0.0) if separation is None else separation
+        exceeds, found = self.act(
+            "constrain_distance", c0, std, solves, separation is not None, *given
+        )
+        return exceeds != 0.0, found
+
+    def measured(self, rows: int) -> tuple[FloatArray, FloatArray]:
+        """Return innovation (m,) and S (m, m) of the ``rows`` that `act` has updated with."""
+        kept = self._x[lay.X_Y : lay.X_BEFORE].copy()
+        S = kept[lay.X_S - lay.X_Y :].reshape(lay.ROWS_MOST, lay.ROWS_MOST)
+        return kept[:rows], S[:rows, :rows]
+
+    def touchdown(self, foot: int, std: float) -> Touchdown:
+        """Return how foot 0 or 1 came to its present stance.
+
+        A landing has a velocity of ``std`` m/s beside what the state says.
+        """
+        space, x = self._space, self._x
+        nis: float = self._engine.landing(space.w, space.n, x, foot, std)
+        return Touchdown(nis, x[lay.X_VELOCITY : lay.X_VELOCITY + 3].tolist())
 
     def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
         """Update with one measurement whose statistics are known; return the NIS.
@@ -212,27 +252,14 @@ class JointEstimate:
         w[lay.S_S], w[lay.S_Y] = s, innovation
         return float(self._engine.correct(w, 1))
 
-    def _collect(self, rows: Sequence[Row]) -> None:
+    def _put(self, rows: Sequence[Row]) -> None:
+        """Write the measurement matrix."""
         w = self._space.w
         w[lay.S_H : lay.S_H + lay.ROWS_MOST * lay.JOINT] = 0.0
         for k, row in enumerate(rows):
             for state, coefficient in row.items():
                 pad = lay.SIDE - lay.ERRORS if state >= lay.ERRORS else 0
                 w[lay.S_H + lay.JOINT * k + state + pad] = coefficient
-        self._engine.collect(w, len(rows))
-
-
-def magnitude(row: Row, variances: Sequence[float]) -> float:
-    """Return the greatest variance that states of ``variances`` (30,) can give ``row``."""
-    total = 0.0
-    for state, coefficient in row.items():
-        total += abs(coefficient) * math.sqrt(max(0.0, variances[state]))
-    return total * total
-
-
-def observes_height(row: Row) -> bool:
-    """Return whether ``row`` measures a height, and not how high one foot is above the other."""
-    return abs(sum(row.get(lay.position_row(foot, 2), 0.0) for foot in range(2))) > ROUNDING
 
 
 def relative_row(direction: Sequence[float]) -> dict[int, float]:

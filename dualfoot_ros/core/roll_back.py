@@ -65,7 +65,8 @@ class RollBack:
         """Apply all at their moments, or all now, and return what came of each, by epoch."""
         now = self._space.epoch
         if requests[0].roll_back:
-            requests = sorted(requests, key=lambda request: request.epoch)
+            if len(requests) > 1:
+                requests = sorted(requests, key=lambda request: request.epoch)
             outcomes = self._replay(requests[0].epoch + 1, requests)
         else:
             outcomes = [request.apply(self._estimate) for request in requests]
@@ -85,15 +86,19 @@ class RollBack:
         ones, none earlier than ``first - 1``, join them.  Returns what came of the fresh ones.
         """
         space, engine = self._space, self._engine
-        engine.restore(space.w, space.n, first)
+        w, n = space.w, space.n
+        engine.restore(w, n, first)
         outcomes = []
+        actions = [(request.epoch, request.apply, True) for request in fresh]
         old = [(epoch, apply, False) for epoch, apply in self._actions if epoch >= first]
-        new = [(request.epoch, request.apply, True) for request in fresh]
-        for epoch, apply, is_fresh in sorted([*old, *new], key=lambda action: action[0]):
-            engine.rerun(space.w, space.n, first, epoch)
-            first = max(first, epoch + 1)
+        if old:
+            actions = sorted([*old, *actions], key=lambda action: action[0])
+        for epoch, apply, is_fresh in actions:
+            if first <= epoch:
+                engine.rerun(w, n, first, epoch)
+                first = epoch + 1
             outcome = apply(self._estimate)
             if is_fresh:
                 outcomes.append(outcome)
-        engine.rerun(space.w, space.n, first, space.epoch)
+        engine.rerun(w, n, first, space.epoch)
         return outcomes

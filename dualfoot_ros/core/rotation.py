@@ -102,8 +102,10 @@ def exact_rotation(turn: FloatArray) -> FloatArray:
 
 def turn_between(before: FloatArray, after: FloatArray) -> float:
     """Return the turn about the vertical between two R_nb (3, 3), rad, however the sensor sits."""
-    m = after @ before.T
-    return math.atan2(m[1, 0] - m[0, 1], m[0, 0] + m[1, 1])
+    (a, b, c), (d, e, f) = before[:2].tolist()
+    (u, v, w), (x, y, z) = after[:2].tolist()
+    across = (x * a + y * b + z * c) - (u * d + v * e + w * f)
+    return math.atan2(across, (u * a + v * b + w * c) + (x * d + y * e + z * f))
 
 
 def mean_angle(a: float, b: float) -> float:

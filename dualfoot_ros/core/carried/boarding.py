@@ -11,12 +11,12 @@ else is wrong with the track, as a constraint to a distance that the feet do not
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..gait_history import GaitHistory
+from ..joint_estimate import Touchdown
 from ..kernel import Workspace
 from ..kernel import layout as lay
 from ..samples.series import FloatArray
@@ -72,9 +72,9 @@ class Boarding:
         self._before = None
         self._fast = [True, True, True]
 
-    def landed(self, foot: int) -> Step | None:
-        """Take the stance of ``foot`` that has been confirmed; return a step between floors."""
-        landing = self._landing(foot)
+    def landed(self, foot: int, touchdown: Touchdown) -> Step | None:
+        """Take the stance of ``foot`` that is confirmed; return a step between floors."""
+        landing = self._landing(foot, touchdown)
         before, self._before = self._before, landing
         if (
             before is None
@@ -96,21 +96,16 @@ class Boarding:
         """Return the stamp of the first sample of the stance of ``foot``, ns."""
         return self._gait.stamp(self._space.foot(foot, "N_START"))
 
-    def _landing(self, foot: int) -> Landing | None:
+    def _landing(self, foot: int, touchdown: Touchdown) -> Landing | None:
         """Return the landing of ``foot`` if its velocity is none that a landing has."""
-        first = self._space.foot(foot, "N_START")
-        if not self._space.oldest <= first <= self._space.epoch:
+        if touchdown.nis < 0.0:
             return None
-        state = self._space.snapshot(first)
-        start = foot * lay.FOOT + lay.VEL
-        velocity = state[start : start + 3].copy()
-        start = (lay.PLL if foot == 0 else lay.PRR) + lay.ROWS_VEL + lay.E_VEL
-        S = [state[at : at + 3].tolist() for at in range(start, start + 3 * lay.ROW, lay.ROW)]
-        for i in range(3):
-            S[i][i] += LANDING_STD**2
-        fast = nis_of(velocity.tolist(), S) > self.gate
+        fast = touchdown.nis > self.gate
         self._fast = [*self._fast[1:], fast]
-        if not fast or float(velocity @ velocity) > FASTEST**2:
+        if not fast:
+            return None
+        velocity, first = np.array(touchdown.velocity), self._space.foot(foot, "N_START")
+        if float(velocity @ velocity) > FASTEST**2:
             return None
         if not self._steady(foot, first, velocity):
             return None
@@ -137,14 +132,3 @@ def alike(one: FloatArray, other: FloatArray) -> bool:
     """Return whether two velocities (3,) differ by less than a share of their mean."""
     apart, mean = one - other, 0.5 * (one + other)
     return float(apart @ apart) < ALIKE**2 * float(mean @ mean)
-
-
-def nis_of(y: Sequence[float], S: Sequence[Sequence[float]]) -> float:
-    """Return y' S^-1 y of an innovation (3,), by the adjugate: the same bits everywhere."""
-    (a, b, c), (_, e, f), (_, _, i) = S
-    minors = [e * i - f * f, c * f - b * i, b * f - c * e]
-    determinant = a * minors[0] + b * minors[1] + c * minors[2]
-    u, v, w = y
-    total = minors[0] * u * u + (a * i - c * c) * v * v + (a * e - b * b) * w * w
-    total += 2.0 * (minors[1] * u * v + minors[2] * u * w + (b * c - a * f) * v * w)
-    return total / determinant if determinant > 0.0 else math.inf

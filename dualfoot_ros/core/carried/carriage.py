@@ -11,7 +11,7 @@ import numpy as np
 from ..constraints.method import Request
 from ..gait_history import GaitHistory
 from ..groups import FloorConfig
-from ..joint_estimate import Outcome
+from ..joint_estimate import Outcome, Touchdown
 from ..kernel import Workspace
 from ..results.events import Event, EventKind
 from ..results.payloads import FloorKind, Reason, Ride
@@ -66,7 +66,7 @@ class Carriage:
         self._fix()
         return [] if goes_on else [self._end(now)]
 
-    def landed(self, foot: int, *, heading_known: bool) -> list[Event]:
+    def landed(self, foot: int, touchdown: Touchdown, *, heading_known: bool) -> list[Event]:
         """Attend to a stance of ``foot`` that has been confirmed."""
         now = self._gait.stamp(self._space.epoch)
         if self.kind in (FloorKind.LIFT, FloorKind.VEHICLE):
@@ -76,7 +76,7 @@ class Carriage:
             return [self._end(now)]
         if not heading_known:  # the axes of the feet are not the same
             return []
-        step = self._boarding.landed(foot)
+        step = self._boarding.landed(foot, touchdown)
         self._doubt()
         return [] if step is None else [self._change(step, now)]
 

@@ -39,7 +39,11 @@ ENTRY_KINDS = {
     "tell": Entry((_W, _ROWS, _I, _W), _I),
     "collect": Entry((_W, _I)),
     "correct": Entry((_W, _I), _X),
-    "correct_considering": Entry((_W, _I, _I), _X),
     "turn": Entry((_W, _I, _I, _X, _X, _W, _W)),
     "closest": Entry((_W, _X, _X)),
+    "observe": Entry((_W, _W, _I, _I), _X),
+    "constrain_spacing": Entry((_W, _W, _X, _X, _X, _X, _X, _I, _I), _X),
+    "constrain_distance": Entry((_W, _W, _X, _X, _I, _I, _X, _X, _X), _I),
+    "learn_spacing": Entry((_W, _X, _X, _X, _X, _X, _X)),
+    "landing": Entry((_W, _N, _W, _I, _X), _X),
 }

@@ -43,8 +43,12 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     numbers = functions["tell"](w, out, 0, blocks)
     yield np.append(blocks, numbers).tobytes()
     yield w.tobytes() + n.tobytes() + out.tobytes()
-    for kind in (None, lay.KNOW_ALL, lay.KNOW_COMMON, lay.KEEP_PLACE):
+    for kind in (None, lay.KNOW_ALL, lay.KNOW_COMMON, lay.KEEP_PLACE, lay.KNOW_NOTHING):
         yield _updated(functions, w, kind)
+    yield from _constrained(functions, w)
+    x = np.zeros(lay.X_SIZE)
+    nis = functions["landing"](w, n, x, 1, 0.06)
+    yield np.append(x, nis).tobytes()
     for foot in range(2):
         functions["turn"](w, 0, foot, 0.6, 0.8, np.array([0.3, 0.7]), np.array([1.0, 2.0, 0.1]))
     yield w.tobytes()
@@ -60,14 +64,31 @@ def _updated(functions: Calls, w: FloatArray, kind: int | None) -> bytes:
     rows[:] = 0.0
     rows[0, [0, lay.SIDE, lay.E_ATT + 2]] = 1.0, -1.0, 0.2
     rows[1, [1, lay.SIDE + 1, lay.SIDE + lay.E_BG]] = 1.0, -1.0, 0.3
-    functions["collect"](w, 2)
-    w[lay.S_Y : lay.S_Y + 2] = 0.02, -0.03
-    w[[lay.S_S, lay.S_S + 4]] += 0.01
+    x = np.zeros(lay.X_SIZE)
     if kind is None:
+        functions["collect"](w, 2)
+        w[lay.S_Y : lay.S_Y + 2] = 0.02, -0.03
+        w[[lay.S_S, lay.S_S + 4]] += 0.01
         nis = functions["correct"](w, 2)
     else:
-        nis = functions["correct_considering"](w, 2, kind)
-    return w.tobytes() + np.float64(nis).tobytes()
+        x[lay.X_Y : lay.X_Y + 2], x[lay.X_NOISE : lay.X_NOISE + 2] = (0.02, -0.03), 0.01
+        nis = functions["observe"](w, x, 2, kind)
+    return w.tobytes() + np.append(x, nis).tobytes()
+
+
+def _constrained(functions: Calls, w: FloatArray) -> Iterator[bytes]:
+    """Yield the state after each constraint between the feet."""
+    x = np.zeros(lay.X_SIZE)
+    for lateral, kind in ((0, lay.KNOW_COMMON), (1, lay.KNOW_NOTHING)):
+        nis = functions["constrain_spacing"](w, x, 0.6, 0.8, 0.15, 0.08, 0.15, lateral, kind)
+        yield w.tobytes() + np.append(x, nis).tobytes()
+    exceeds = functions["constrain_distance"](w, x, 0.1, 0.05, 1, 0, 0.0, 0.0, 0.0)
+    yield w.tobytes() + np.append(x, exceeds).tobytes()
+    learnt = np.zeros(lay.L_SIZE)
+    learnt[lay.L_COVARIANCE : lay.L_BEGUN] = (0.01 * np.eye(4) + 0.001).ravel()
+    for _ in range(2):
+        functions["learn_spacing"](learnt, 0.3, 0.2, 0.1, 0.15, 0.6, 0.8)
+    yield learnt.tobytes()
 
 
 def _numbers() -> tuple[FloatArray, IntArray]:

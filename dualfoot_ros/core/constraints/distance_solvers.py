@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 
-LEAST_VARIANCE = 1e-12  # m^2; a distance that is known better is not corrected
 Vector = list[float]
 Matrix = list[list[float]]
 

@@ -44,11 +44,13 @@ class Idc(AtMinimumDistance):
     config_class = IdcConfig
     config: IdcConfig
 
+    @property
+    def is_exact(self) -> bool:
+        """Whether the minimiser itself is wanted."""
+        return self.config.solver == "exact"
+
     def correct(self, estimate: JointEstimate, r: Vector, p: Matrix, target: float) -> None:
-        """Project by the chosen solver."""
-        c0, std = target, self.config.distance_std
-        if self.config.solver == "exact":
-            direction, push, noise = estimate.closest(r, p, c0, std)
-        else:
-            direction, push, noise = iterate(r, p, c0, std, self.config.iterations)
+        """Project by the iteration of the paper."""
+        std, iterations = self.config.distance_std, self.config.iterations
+        direction, push, noise = iterate(r, p, target, std, iterations)
         estimate.update([relative_row(direction)], [push], [noise])

@@ -17,10 +17,13 @@ and where it turns one way only, it stays near its prior and says so.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from ..joint_estimate import Outcome
+from ..kernel import Engine, interpreted
+from ..kernel import layout as lay
 from ..results.payloads import Passing
 from ..samples.series import FloatArray
 
@@ -28,62 +31,53 @@ PRIOR_M = 0.15  # feet side by side, both sensors on the insteps
 PRIOR_STD_M = 0.04
 PLACEMENT_STD_M = 0.1  # how far off the feet may have been placed
 STRIDE_STD_M = 0.003  # by which one foot runs ahead of the other from passing to passing
-WANDER_STD_M = 0.03  # by which that wanders from one passing to the next
-ACROSS_STD_M = 0.04  # from passing to passing, across and along the walk
-ALONG_STD_M = 0.1
 
 
 class SpacingLearner:
-    """Estimates the spacing from the separations in passing."""
+    """Estimates the spacing from the separations in passing; `learn_spacing` does the sums."""
 
     def __init__(self) -> None:
         """Start from the prior."""
-        self._x = np.array([PRIOR_M, 0.0, 0.0, 0.0])
-        self._p = np.diag([PRIOR_STD_M, PLACEMENT_STD_M, PLACEMENT_STD_M, STRIDE_STD_M]) ** 2
-        self._free: FloatArray | None = None  # the separation without constraints
-        self._after = np.zeros(2)
+        x = self._x = np.zeros(lay.L_SIZE)
+        x[lay.L_STATE] = PRIOR_M
+        stds = (PRIOR_STD_M, PLACEMENT_STD_M, PLACEMENT_STD_M, STRIDE_STD_M)
+        np.fill_diagonal(self._covariance(), np.square(stds))
+        self._engine: Engine | None = None
+
+    def _covariance(self) -> FloatArray:
+        """Return the covariance (4, 4) m^2 as a view."""
+        return self._x[lay.L_COVARIANCE : lay.L_BEGUN].reshape(4, 4)
+
+    def use(self, engine: Engine) -> None:
+        """Go on with another form of the kernel; it is interpreted unless one is given."""
+        self._engine = engine
 
     @property
     def spacing_m(self) -> float:
         """The spacing."""
-        return float(self._x[0])
+        return self._x.item(lay.L_STATE)
 
     @property
     def std_m(self) -> float:
         """Its standard deviation."""
-        return math.sqrt(float(self._p[0, 0]))
+        return math.sqrt(self._x.item(lay.L_COVARIANCE))
 
-    def add(self, before: FloatArray, after: FloatArray, heading: float) -> None:
-        """Take one passing: separations (2,) m before and after its constraint, heading in rad."""
-        self._free = before.copy() if self._free is None else self._free + before - self._after
-        self._after = after.copy()
-        c, s = math.cos(heading), math.sin(heading)
-        x, y = float(self._free[0]), float(self._free[1])
-        self._go_on(c, s)
-        self._observe(np.array([1.0, -s, c, 0.0]), c * y - s * x, ACROSS_STD_M**2)
-        self._observe(np.array([0.0, c, s, 0.0]), c * x + s * y, ALONG_STD_M**2)
+    def add(self, before: Sequence[float], after: Sequence[float], heading: float) -> None:
+        """Take one passing: separations m before and after its constraint, heading in rad.
 
-    def _go_on(self, c: float, s: float) -> None:
-        """Let the placement run along the walk, whose direction is (c, s), and wander."""
-        step = np.eye(4)
-        step[1:3, 3] = c, s
-        self._x = step @ self._x
-        self._p = step @ self._p @ step.T
-        self._p[1, 1] += WANDER_STD_M**2
-        self._p[2, 2] += WANDER_STD_M**2
-
-    def _observe(self, row: FloatArray, value: float, variance: float) -> None:
-        cross = self._p @ row
-        gain = cross / (float(row @ cross) + variance)
-        self._x += gain * (value - float(row @ self._x))
-        self._p -= np.outer(gain, cross)
+        What they have beyond their two level components does not count.
+        """
+        engine = self._engine or interpreted()
+        ahead = math.cos(heading), math.sin(heading)
+        engine.learn_spacing(self._x, before[0], before[1], after[0], after[1], *ahead)
 
     def restart(self) -> None:
         """Keep the spacing but forget the placement: the track was turned or moved."""
-        self._free = None
-        self._x[1:3] = 0.0
-        self._p[1:3, :] = self._p[:, 1:3] = 0.0
-        self._p[1, 1] = self._p[2, 2] = PLACEMENT_STD_M**2
+        x, P = self._x, self._covariance()
+        x[lay.L_BEGUN] = 0.0
+        x[lay.L_STATE + 1 : lay.L_STATE + 3] = 0.0
+        P[1:3, :] = P[:, 1:3] = 0.0
+        P[1, 1] = P[2, 2] = PLACEMENT_STD_M**2
 
 
 class Spacing:
@@ -93,6 +87,11 @@ class Spacing:
         """Use ``given_m``, or learn when it is zero."""
         self._given = given_m
         self.learner = SpacingLearner() if given_m == 0.0 else None
+
+    def use(self, engine: Engine) -> None:
+        """Learn with another form of the kernel."""
+        if self.learner is not None:
+            self.learner.use(engine)
 
     @property
     def std_m(self) -> float:
@@ -108,8 +107,7 @@ class Spacing:
         """Learn from a constraint that was applied, or found not to be needed."""
         passing = outcome.payload
         if self.learner is not None and isinstance(passing, Passing):
-            before, after = np.array(passing.before[:2]), np.array(passing.after[:2])
-            self.learner.add(before, after, passing.heading)
+            self.learner.add(passing.before, passing.after, passing.heading)
 
     def moved(self) -> None:
         """Take note that the tracks were turned or moved."""

@@ -12,10 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..joint_estimate import JointEstimate, Outcome, relative_row
+from ..joint_estimate import JointEstimate, Outcome
+from ..kernel import layout as lay
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit
-from .distance_solvers import LEAST_VARIANCE, norm, quadratic
+from .distance_solvers import norm
 from .method import Gait, Method, Request
 
 
@@ -58,15 +59,9 @@ class MaxDistance(Method):
     def apply(self, estimate: JointEstimate) -> Outcome:
         """Project the joint state onto |r| = bound."""
         bound, std = self.config.bound, self.config.bound_std
-        r, p = estimate.relative_position(), estimate.relative_covariance()
-        distance = norm(r)
-        variance = quadratic(r, p) / distance**2
-        s, error = variance + std * std, distance - bound
-        accepted, after = error > 0.0 and variance > LEAST_VARIANCE, None
-        if accepted:
-            direction, push, noise = estimate.closest(r, p, bound, std)
-            estimate.update([relative_row(direction)], [push], [noise])
-            after = norm(estimate.relative_position())
+        exceeds, found = estimate.constrain_distance(bound, std, solves=True)
+        error, s = found[lay.X_Y], found[lay.X_S]
+        after = norm(found[lay.X_AFTER : lay.X_DISTANCE]) if exceeds else None
         nis = error * error / s if s > 0.0 else float("nan")
-        limit = DistanceLimit(distance, bound, after)
-        return Outcome(np.array([error]), np.array([[s]]), nis, accepted, limit)
+        limit = DistanceLimit(found[lay.X_DISTANCE], bound, after)
+        return Outcome(np.array([error]), np.array([[s]]), nis, exceeds, limit)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import ClassVar, NamedTuple, Protocol
 
 from ..joint_estimate import JointEstimate, Outcome
 from ..parameters import Parameters
@@ -14,8 +13,7 @@ from ..samples.series import FloatArray
 from .learnt_spacing import Spacing
 
 
-@dataclass(frozen=True)
-class StancePhase:
+class StancePhase(NamedTuple):
     """A stance, in epochs of the tracker.
 
     ``first`` and ``last`` bound the zero-velocity epochs (``last`` is ``now`` while it lasts),
@@ -42,8 +40,7 @@ class StancePhase:
         return round((1.0 - share) * self.first + share * self.last - self.lag)
 
 
-@dataclass(frozen=True)
-class Request:
+class Request(NamedTuple):
     """A constraint a method asks for.
 
     ``epoch`` is the moment it is about.  With ``roll_back`` it is applied at that moment and the
@@ -117,6 +114,11 @@ class Method:
     def __init__(self, config: Parameters) -> None:
         """Use ``config``, an instance of ``config_class``."""
         self.config = config
+
+    @property
+    def asks_at_start(self) -> bool:
+        """Whether the start of a stance is anything to it."""
+        return type(self).on_stance_start is not Method.on_stance_start
 
     def retune(self, config: Parameters) -> None:
         """Go on with other weights and distances of ``config``."""

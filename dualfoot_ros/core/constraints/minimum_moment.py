@@ -14,9 +14,10 @@ from functools import partial
 import numpy as np
 
 from ..joint_estimate import JointEstimate, Outcome
+from ..kernel import layout as lay
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit, Passing, Reason
-from .distance_solvers import LEAST_VARIANCE, Matrix, Vector, norm, quadratic
+from .distance_solvers import Matrix, Vector, norm
 from .learnt_spacing import Spacing
 from .method import Gait, Method, Request, StancePhase
 
@@ -71,8 +72,8 @@ class AtMinimumDistance(Method):
             return ()
         target = self.spacing.value_m
         constrain = partial(self.apply, target=target, heading=stance.heading)
-        left, right = gait.positions_after(moment)
-        separation = [float(x) for x in left - right]
+        left, right = gait.positions_after(moment).tolist()
+        separation = [a - b for a, b in zip(left, right, strict=True)]
         if self.config.apply_at == "moment" and norm(separation) > target:
             return (Request(moment, True, constrain),)
         return (Request(moment, False, partial(constrain, separation=separation)),)
@@ -105,27 +106,35 @@ class AtMinimumDistance(Method):
         goes into the outcome.
         """
         target = self.spacing.value_m if target is None else target
-        r = separation or estimate.relative_position()
-        p = estimate.relative_covariance()
-        distance = norm(r)
-        variance = quadratic(r, p) / distance**2 if distance > 0.0 else 0.0
-        s = variance + self.config.distance_std**2
-        error = distance - target
-        nis = error * error / s if s > 0.0 else math.nan
-        accepted = error > 0.0 and variance > LEAST_VARIANCE
-        moved, distance_after, reason = [0.0, 0.0, 0.0], None, None
-        if accepted:
-            before = estimate.relative_position()
-            self.correct(estimate, r, p, target)
-            after = estimate.relative_position()
-            moved = [b - a for a, b in zip(before, after, strict=True)]
-            distance_after = norm(after)
+        exceeds, found = estimate.constrain_distance(
+            target, self.config.distance_std, solves=self.is_exact, separation=separation
+        )
+        r, error, s = found[lay.X_BEFORE : lay.X_NOW], found[lay.X_Y], found[lay.X_S]
+        after, distance_after, reason = r, None, None
+        if exceeds:
+            if not self.is_exact:
+                self.correct(estimate, r, covariance_of(found), target)
+            then = estimate.relative_position()
+            now = found[lay.X_NOW : lay.X_AFTER]
+            after = [x + (b - a) for x, a, b in zip(r, now, then, strict=True)]
+            distance_after = norm(then)
         else:
             reason = Reason.DISTANCE_WITHIN_C0 if error <= 0.0 else Reason.NO_UNCERTAINTY
-        limit = DistanceLimit(distance, target, distance_after)
-        passing = Passing(limit, heading, r, [a + b for a, b in zip(r, moved, strict=True)])
-        return Outcome(np.array([error]), np.array([[s]]), nis, accepted, passing, reason)
+        limit = DistanceLimit(found[lay.X_DISTANCE], target, distance_after)
+        nis = error * error / s if s > 0.0 else math.nan
+        passing = Passing(limit, heading, r, after)
+        return Outcome(np.array([error]), np.array([[s]]), nis, exceeds, passing, reason)
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether the least correction is wanted, which the kernel makes; else `correct` does."""
+        return False
 
     def correct(self, estimate: JointEstimate, r: Vector, p: Matrix, target: float) -> None:
         """Bring ``estimate`` to ``target`` m; ``r`` (3,) is the separation, ``p`` its (3, 3)."""
         raise AssertionError(f"{type(self).__name__} says what a constraint does")
+
+
+def covariance_of(found: Sequence[float]) -> Matrix:
+    """Return the covariance (3, 3) m^2 of the separation that the kernel has found."""
+    return [list(found[at : at + 3]) for at in range(lay.M_P, lay.M_AXES, 3)]

@@ -18,13 +18,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
-import numpy as np
-
-from ..joint_estimate import HeadingCorrection, JointEstimate, Outcome, relative_row
-from ..kernel.layout import attitude_row
+from ..joint_estimate import LEFT_ALONE, JointEstimate, Outcome
+from ..kernel import layout as lay
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit, Passing
-from .distance_solvers import dot, norm
 from .learnt_spacing import Spacing
 from .method import Gait, Method, Request, StancePhase
 from .varying_distance import feet_adjacent
@@ -90,8 +87,7 @@ class SpacingVector(Method):
 
     def __init__(self, config: SpacingVectorConfig) -> None:
         """Use ``config``."""
-        self.config = config
-        self.dimensions = (2 if config.variant == "vector" else 1) + (config.height_std > 0.0)
+        self.config, self.dimensions = config, rows_of(config)
         self.spacing = Spacing(config.spacing)
         self.memory_s = config.max_stance
 
@@ -100,7 +96,7 @@ class SpacingVector(Method):
         assert isinstance(config, SpacingVectorConfig)
         if config.spacing != self.config.spacing:
             self.spacing = Spacing(config.spacing)
-        self.config = config
+        self.config, self.dimensions = config, rows_of(config)
 
     def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
         """Return the constraint of a stance that was a step."""
@@ -136,47 +132,26 @@ class SpacingVector(Method):
         """Project onto eq. (9), or onto its component across ``heading`` (rad), and in height."""
         config = self.config
         spacing = self.spacing.value_m if spacing is None else spacing
-        left = [-math.sin(heading), math.cos(heading), 0.0]
-        r = estimate.relative_position()
-        directions, targets, stds = self._rows(left, spacing)
-        found = [dot(direction, r) for direction in directions]
-        innovation = [a - b for a, b in zip(found, targets, strict=True)]
-        # the feet are where they are however the walk is turned, even where they do not fit
-        side, length = (r, 1.0) if estimate.keeps_gauge else (left, spacing)
-        rows = [self._row(direction, side, length) for direction in directions]
-        variances = [max(std**2, 1e-12) for std in stds]
-        correction = HeadingCorrection(config.heading_correction)
-        s, nis = estimate.update(rows, innovation, variances, correction)
-        passing = Passing(
-            DistanceLimit(norm(r), spacing),
-            heading,
-            r,
-            estimate.relative_position(),
-            lateral=dot(r, left),
+        nis, found = estimate.act(
+            "constrain_spacing",
+            math.cos(heading),
+            math.sin(heading),
+            spacing,
+            config.spacing_std,
+            config.height_std,
+            config.variant == "lateral",
+            LEFT_ALONE[config.heading_correction],
         )
-        return Outcome(np.array(innovation), s, nis, True, passing)
+        passing = Passing(
+            DistanceLimit(found[lay.X_DISTANCE], spacing),
+            heading,
+            found[lay.X_BEFORE : lay.X_BEFORE + 3],
+            found[lay.X_AFTER : lay.X_AFTER + 3],
+            found[lay.X_LATERAL],
+        )
+        return Outcome(*estimate.measured(self.dimensions), nis, True, passing)
 
-    def _rows(
-        self, left: list[float], spacing: float
-    ) -> tuple[list[list[float]], list[float], list[float]]:
-        """Return directions (m, 3), targets (m,) m and standard deviations (m,) m of the rows."""
-        config = self.config
-        if config.variant == "vector":
-            directions = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
-            targets = [spacing * left[0], spacing * left[1]]
-        else:
-            directions, targets = [left], [spacing]
-        stds = [config.spacing_std] * len(directions)
-        if config.height_std > 0.0:
-            directions.append([0.0, 0.0, 1.0])
-            targets.append(0.0)
-            stds.append(config.height_std)
-        return directions, targets, stds
 
-    def _row(self, direction: list[float], left: list[float], spacing: float) -> dict[int, float]:
-        """Return the row of H along ``direction``; its target turns with the mean heading."""
-        row = relative_row(direction)
-        if self.config.heading_correction != HeadingCorrection.FULL:
-            slope = -0.5 * spacing * (direction[0] * left[1] - direction[1] * left[0])
-            row.update({attitude_row(foot, 2): slope for foot in range(2)})
-        return row
+def rows_of(config: SpacingVectorConfig) -> int:
+    """Return how many rows the constraint has."""
+    return (2 if config.variant == "vector" else 1) + (config.height_std > 0.0)

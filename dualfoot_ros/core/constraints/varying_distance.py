@@ -146,7 +146,7 @@ class VaryingDistance(Method):
         if not isinstance(pulled, Passing):
             return
         if self.spacing.learner is not None and pulled.lateral is not None:
-            free = np.array(pulled.before[:2]) - self._pulled
+            free = (np.array(pulled.before[:2]) - self._pulled).tolist()
             self.spacing.learner.add(free, free, pulled.heading)
         self._pulled += np.array(pulled.after[:2]) - np.array(pulled.before[:2])
 

@@ -9,6 +9,7 @@ import inspect
 import types
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from . import (
@@ -26,6 +27,14 @@ from . import (
     turn,
     zero_velocity,
 )
+from .at_stances import (
+    distance_constraint,
+    landing,
+    observation,
+    separation,
+    spacing_constraint,
+    spacing_learner,
+)
 
 MODULES = (
     closest,
@@ -41,6 +50,12 @@ MODULES = (
     output_row,
     epoch,
     turn,
+    separation,
+    observation,
+    spacing_constraint,
+    distance_constraint,
+    spacing_learner,
+    landing,
 )
 ENTRIES = (
     "advance",
@@ -51,9 +66,13 @@ ENTRIES = (
     "tell",
     "collect",
     "correct",
-    "correct_considering",
     "turn",
     "closest",
+    "observe",
+    "constrain_spacing",
+    "constrain_distance",
+    "learn_spacing",
+    "landing",
 )
 
 
@@ -70,9 +89,13 @@ class Engine:
     tell: Callable[..., Any]
     collect: Callable[..., Any]
     correct: Callable[..., Any]
-    correct_considering: Callable[..., Any]
     turn: Callable[..., Any]
     closest: Callable[..., Any]
+    observe: Callable[..., Any]
+    constrain_spacing: Callable[..., Any]
+    constrain_distance: Callable[..., Any]
+    learn_spacing: Callable[..., Any]
+    landing: Callable[..., Any]
 
 
 def kernel_functions() -> dict[str, types.FunctionType]:
@@ -85,6 +108,7 @@ def kernel_functions() -> dict[str, types.FunctionType]:
     }
 
 
+@cache
 def interpreted() -> Engine:
     """Return the kernel as plain Python functions."""
     functions = kernel_functions()

@@ -36,7 +36,7 @@ E_POS, E_VEL, E_ATT, E_BG, E_BA = 0, 3, 6, 9, 12
 ERRORS = 15  # error states of one foot
 CONSIDERED_FOOT = 4  # of them that a zero-velocity update takes as known: heading, gyro bias
 CONSIDERED = 12  # most states that a gain takes as known, four at a time
-KNOW_ALL, KNOW_COMMON, KEEP_PLACE = 0, 1, 2  # what an update leaves alone
+KNOW_ALL, KNOW_COMMON, KEEP_PLACE, KNOW_NOTHING = 0, 1, 2, 3  # what an update leaves alone
 ROWS_POS = ROW * E_POS  # from the start of a covariance block to the rows of each of them
 ROWS_VEL = ROW * E_VEL
 ROWS_ATT = ROW * E_ATT
@@ -143,6 +143,25 @@ M_AXES = 12  # principal axes of it, one a row
 M_ALONG, M_VARIANCES, M_AT = 21, 24, 27  # along them: the separation, variances, the solution
 M_DIRECTION, M_PUSH, M_NOISE = 30, 33, 34  # the result: row (3,), innovation m, variance m^2
 M_SIZE = 35
+
+# --- the array of what acts at a stance, beside ``w``; it begins as that of `closest` ------------
+X_Y = M_SIZE  # innovation (3,)
+X_NOISE = X_Y + ROWS_MOST  # variances of it that are not of the state (3,)
+X_S = X_NOISE + ROWS_MOST  # innovation covariance (3, 3)
+X_BEFORE = X_S + ROWS_MOST * ROWS_MOST  # separation of the feet (3,) m that was constrained
+X_NOW = X_BEFORE + 3  # what it is at the time of the constraint
+X_AFTER = X_NOW + 3  # the same with the constraint
+X_DISTANCE, X_LATERAL = X_AFTER + 3, X_AFTER + 4  # of X_BEFORE: length, component to the left, m
+X_VELOCITY = X_LATERAL + 1  # of a landing (3,) m/s
+X_SIZE = X_VELOCITY + 3
+
+# --- the array of the spacing that is learnt, a filter of its own --------------------------------
+L_STATE = 0  # spacing, placement (2,), advance a passing, m
+L_COVARIANCE = 4  # of them (4, 4) m^2
+L_BEGUN = 20  # 1 once there is a
+L_FREE = 21  # separation (2,) m as it would be without constraints
+L_AFTER = 23  # separation (2,) m after the newest of them
+L_SIZE = 25
 
 # --- rings (length n[N_RING]) --------------------------------------------------------------------
 RINGS = GLRT_RIGHT + 1  # history first, snapshots after it

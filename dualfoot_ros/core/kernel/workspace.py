@@ -12,6 +12,7 @@ from . import layout as lay
 GAP_SPEED = 1.5  # m/s, how a person may have moved while no data came
 MISSED_SHARE = 0.2  # of the change over a hole
 MISSED_FORCE, MISSED_RATE = 2.0, 0.5  # m/s^2 and rad/s
+PHASE_ITEMS = {"N_PHASE": lay.N_PHASE, "N_START": lay.N_START, "N_LEAVE": lay.N_LEAVE}
 LONGEST_GAP_S = 60.0  # beyond which a person is not farther away
 
 
@@ -36,7 +37,7 @@ class Workspace:
     @property
     def oldest(self) -> int:
         """Oldest epoch to which the filter can be rolled back."""
-        return int(self.n[lay.N_OLDEST])
+        return self.n.item(lay.N_OLDEST)
 
     def keep_stamps(self, newest: IntArray) -> None:
         """Keep the stamps (N,) ns of the newest N epochs, as far as the ring holds them."""
@@ -51,7 +52,7 @@ class Workspace:
 
     def foot(self, foot: int, item: str) -> int:
         """Return an integer of the phase machine of ``foot``: N_PHASE, N_START or N_LEAVE."""
-        return int(self.n[lay.N_FOOT + foot * lay.N_STRIDE + getattr(lay, item)])
+        return self.n.item(lay.N_FOOT + foot * lay.N_STRIDE + PHASE_ITEMS[item])
 
     def snapshot(self, epoch: int) -> FloatArray:
         """Return the state (STATE,) before ``epoch`` as a view."""

@@ -22,6 +22,7 @@ from ..rotation import about_z, mean_angle, turn_between
 from ..samples.series import FloatArray
 from .initial_state import InitialState
 
+BOTH_THERE = [False, False]  # neither foot is absent
 LEAST_WAY = 0.5  # m; a shorter way has no direction
 SCATTER_RATE = 0.03  # rad/s, of a foot's heading over two strides of a straight walk
 
@@ -98,7 +99,7 @@ class Headings:
     @property
     def known(self) -> bool:
         """Whether both feet know their heading."""
-        return self.knows_way(0) and self.knows_way(1)
+        return self._strides[0] is None and self._strides[1] is None
 
     def knows_way(self, foot: int) -> bool:
         """Whether the heading of ``foot`` is fixed."""
@@ -107,7 +108,8 @@ class Headings:
     @property
     def mean(self) -> float:
         """Direction the person faces: the circular mean of the feet that are there, rad."""
-        return mean_angle(*self.present)
+        left, right = self.feet if self.absent == BOTH_THERE else self.present
+        return mean_angle(left, right)
 
     @property
     def present(self) -> tuple[float, float]:

@@ -13,12 +13,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-import numpy as np
-
-from ..carried.boarding import LANDING_STD, nis_of
 from ..carried.probability import nis_gate
 from ..constraints import Request
-from ..joint_estimate import JointEstimate, Outcome
+from ..joint_estimate import JointEstimate, Outcome, Touchdown
 from ..kernel import Workspace
 from ..kernel import layout as lay
 from ..results.payloads import Reason
@@ -28,26 +25,18 @@ LEAST_SPEED = 1.5  # m/s; floors do 1, and a hole that was filled leaves up to 1
 MISFIT = 20.0  # NIS a row of a constraint beyond which the feet cannot be where they seem to be
 
 
-def lost_speed(space: Workspace, foot: int) -> float | None:
-    """Return how fast ``foot`` has landed, m/s, if no foot can; None if it has not."""
-    first = space.foot(foot, "N_START")
-    if not space.oldest <= first <= space.epoch:
+def lost_speed(touchdown: Touchdown) -> float | None:
+    """Return how fast a foot has landed, m/s, if no foot can; None if it has not."""
+    if not touchdown.nis > LOST_GATE:
         return None
-    state = space.snapshot(first)  # before the first zero-velocity update
-    start = foot * lay.FOOT + lay.VEL
-    velocity = state[start : start + 3]
-    speed = math.hypot(*velocity.tolist())
-    if speed < LEAST_SPEED:
-        return None
-    block = lay.PLL if foot == 0 else lay.PRR
-    own = state[block : block + lay.BLOCK].reshape(lay.ERRORS, lay.ROW)
-    S = own[lay.E_VEL : lay.E_ATT, lay.E_VEL : lay.E_ATT] + LANDING_STD**2 * np.eye(3)
-    return speed if nis_of(velocity.tolist(), S.tolist()) > LOST_GATE else None
+    speed = math.hypot(*touchdown.velocity)
+    return speed if speed >= LEAST_SPEED else None
 
 
 def doubting(space: Workspace, request: Request, feet: Sequence[int] = (0, 1)) -> Request:
     """Return a request that makes the places of ``feet`` unknown first, where it does not fit."""
-    return replace(request, apply=partial(_apply, space, request.apply, feet))
+    apply = partial(_apply, space, request.apply, feet)
+    return Request(request.epoch, request.roll_back, apply, request.kind)
 
 
 def _apply(

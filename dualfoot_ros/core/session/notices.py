@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from functools import partial
 
+from ..carried.boarding import LANDING_STD
 from ..constraints import Method, Request, StancePhase
 from ..joint_estimate import Outcome
 from ..kernel import layout as lay
@@ -17,6 +18,7 @@ from .lost_track import doubting, lost_speed
 from .walk_state import WalkState
 
 Found = list[Event]
+FALSE = (lay.STANCE_FALSE | lay.SWING_FALSE) * (1 + (1 << lay.NOTICE_SHIFT))
 PRESENCE = 3 * (lay.NOTICE_GONE | lay.NOTICE_BACK)  # bits of both feet
 
 
@@ -31,9 +33,10 @@ class Notices:
     def attend(self) -> Found:
         """Do what the newest epoch's notices ask for."""
         walk = self._walk
-        notices = int(walk.space.n[lay.N_NOTICE])
+        notices = walk.space.n.item(lay.N_NOTICE)
         bits = [notices & 15, notices >> lay.NOTICE_SHIFT]
-        walk.roll_back.clean_phases(bits)
+        if notices & FALSE:
+            walk.roll_back.clean_phases(bits)
         found = self._presence(notices) if notices & PRESENCE else []
         if notices & lay.NOTICE_FLOOR:
             found += self._floor()
@@ -78,36 +81,39 @@ class Notices:
 
     def _phase(self, foot: int, last: int) -> StancePhase:
         walk = self._walk
-        lag = 0.5 * (int(walk.space.n[lay.N_WINDOW]) - 1)
+        lag = 0.5 * (walk.space.n.item(lay.N_WINDOW) - 1)
         first = walk.space.foot(foot, "N_START")
         period, heading = walk.gait.period_s, walk.headings.mean
         return StancePhase(foot, first, last, lag, walk.space.epoch, period, heading)
 
     def _stance_confirmed(self, foot: int) -> Found:
         walk = self._walk
-        stamp = walk.gait.stamp(walk.space.foot(foot, "N_START"))
-        now = walk.gait.stamp(walk.space.epoch)
+        space, gait = walk.space, walk.gait
+        stamp, now = gait.stamp(space.foot(foot, "N_START")), gait.stamp(space.epoch)
         found = [Event(EventKind.STANCE_START, stamp, FEET[foot], now)]
-        found += self._lost(foot, stamp, now)
+        touchdown = walk.estimate.touchdown(foot, LANDING_STD)
+        speed = lost_speed(touchdown)
+        if speed is not None:
+            found += self._lost(foot, speed, stamp, now)
+            touchdown = walk.estimate.touchdown(foot, LANDING_STD)  # it may be forgotten by now
         if walk.watches_floor:
-            found += walk.carriage.landed(foot, heading_known=walk.headings.known)
+            found += walk.carriage.landed(foot, touchdown, heading_known=walk.headings.known)
         if walk.absences.of[foot] is Presence.BACK:
             walk.absences.level(foot)
             walk.forget()
         found += self._turn(foot, now)
-        phase = self._phase(foot, walk.space.epoch)
-        for method in self._askable(foot):
-            found += walk.constrain(FEET[foot], method, method.on_stance_start(phase, walk.gait))
+        asked = [each for each in self._askable(foot) if each.asks_at_start]
+        phase = self._phase(foot, space.epoch) if asked else None
+        for method in asked:
+            assert phase is not None
+            found += walk.constrain(FEET[foot], method, method.on_stance_start(phase, gait))
         return found
 
-    def _lost(self, foot: int, landed: int, now: int) -> Found:
+    def _lost(self, foot: int, speed: float, landed: int, now: int) -> Found:
         """Level and join a foot anew that has landed as none does: its samples were wrong."""
         walk = self._walk
         joined = walk.absences.of[foot] is Presence.JOINED
         if not (joined and walk.headings.known and walk.carriage.kind is None):
-            return []
-        speed = lost_speed(walk.space, foot)
-        if speed is None:
             return []
         ended = walk.gait.ended[foot]
         since = walk.gait.stamp(ended, landed)
@@ -135,8 +141,9 @@ class Notices:
         known = walk.headings.known
         joined = walk.absences.of[foot] is Presence.JOINED
         aids = [each for each in walk.aids if joined and (known or not each.needs_heading)]
-        free = known or not walk.method.needs_heading
-        return [*aids, walk.method] if free and walk.absences.none else aids
+        if walk.absences.none and (known or not walk.method.needs_heading):
+            aids.append(walk.method)
+        return aids
 
     def _stance_ended(self, foot: int) -> Found:
         walk = self._walk

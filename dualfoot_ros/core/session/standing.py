@@ -78,5 +78,6 @@ class Stands:
 
     def forget(self, foot: int) -> None:
         """Forget the windows of a stand from which nothing was learnt."""
-        self._stands[foot].clear()
+        if self.stood(foot):
+            self._stands[foot].clear()
         self._newest[foot] = None

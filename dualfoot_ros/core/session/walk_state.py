@@ -70,12 +70,18 @@ class WalkState:
         self.engine = engine
         self.estimate = JointEstimate(self.space, engine)
         self.roll_back.use(engine, self.estimate)
+        self._learn_with(engine)
+
+    def _learn_with(self, engine: Engine) -> None:
+        if self.method.spacing is not None:
+            self.method.spacing.use(engine)
 
     def retune(self, config: TrackerConfig, aids: Sequence[Method]) -> None:
         """Go on with other weights, thresholds, aids and distances."""
         self.aids = aids
         self.initial.retune(config)
         self.method.retune(config.constraint)
+        self._learn_with(self.engine)
         self.carriage.retune(config.floor)
         self.forget()
 
@@ -123,11 +129,13 @@ class WalkState:
         if not requests:
             return []
         done = self.roll_back.apply([doubting(self.space, request) for request in requests])
-        for _, outcome in done:
+        found = []
+        for request, outcome in done:
             if outcome.reason is not Reason.DID_NOT_FIT:
                 method.note(outcome)
             self.carriage.constrained(outcome)
-        return [self._event(foot, *pair) for pair in done]
+            found.append(self._event(foot, request, outcome))
+        return found
 
     def _event(self, foot: str, request: Request, outcome: Outcome) -> Event:
         return Event(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import importlib
+import inspect
 import json
 import os
 import subprocess
@@ -20,7 +21,14 @@ from dualfoot_ros.core.compiler.entries import ENTRY_KINDS
 from dualfoot_ros.core.compiler.numba_cache import keep_in
 from dualfoot_ros.core.compiler.same_bits import same_bits
 from dualfoot_ros.core.compiler.shared_library import can_compile
-from dualfoot_ros.core.kernel import ENTRIES, interpreted, output_row, turn
+from dualfoot_ros.core.kernel import (
+    ENTRIES,
+    MODULES,
+    interpreted,
+    kernel_functions,
+    output_row,
+    turn,
+)
 
 from ..following import live
 from ..harness import walk
@@ -141,6 +149,17 @@ def test_where_no_cache_can_be_written_no_other_process_is_asked_to_fill_it(nowh
     monkeypatch.setattr(background.subprocess, "run", lambda *given, **how: asked.append(given))
     assert BackgroundEngine().wait() is engine
     assert asked == []
+
+
+def test_no_two_functions_of_the_kernel_have_one_name():
+    """All forms but the interpreted one know a function by its name alone."""
+    names = [
+        name
+        for module in MODULES
+        for name, item in vars(module).items()
+        if inspect.isfunction(item) and item.__module__ == module.__name__
+    ]
+    assert sorted(names) == sorted(kernel_functions())
 
 
 def test_importing_the_core_imports_neither_numba_nor_scipy():

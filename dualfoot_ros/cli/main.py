@@ -115,13 +115,12 @@ def _run(name: str, arguments: list[str]) -> int:
 
 def _sentence(error: Exception) -> str | None:
     """Return what to tell the user of an error; None when it is a fault of the program."""
-    from ..core import DualFootError
+    from ..core import DualFootError, os_error_text
 
     if isinstance(error, DualFootError):
         return str(error)
     if isinstance(error, OSError) and error.strerror is not None:
-        where = f"'{error.filename}': " if error.filename else ""
-        return f"{where}{error.strerror}"
+        return os_error_text(error)
     return None
 
 

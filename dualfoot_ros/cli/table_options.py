@@ -53,9 +53,17 @@ def _add_form_arguments(group: Arguments) -> None:
     group.add_argument("--time-unit", choices=TIME_UNITS, help="unit of the time")
     group.add_argument("--rate", type=float, metavar="HZ", help="sampling rate")
     group.add_argument(
-        "--delimiter", choices=[*DELIMITERS, *",;|"], help="what separates the cells"
+        "--delimiter",
+        metavar="NAME",
+        choices=[*DELIMITERS, *",;|"],
+        help=f"what separates the cells: {', '.join(DELIMITERS)}",
     )
-    group.add_argument("--decimal", choices=[*DECIMALS, *".,"], help="decimal sign")
+    group.add_argument(
+        "--decimal",
+        metavar="NAME",
+        choices=[*DECIMALS, *".,"],
+        help=f"decimal sign: {', '.join(DECIMALS)}",
+    )
     group.add_argument("--skip", type=int, metavar="N", help="lines to skip before the table")
 
 

@@ -15,6 +15,7 @@ from .errors import (
     SnapshotError,
     SourceError,
     TimingError,
+    os_error_text,
 )
 from .groups import AlignmentConfig, IncrementsConfig, NoiseConfig
 from .parameters import Parameters, ParameterSpec, check, parameter
@@ -174,6 +175,7 @@ __all__ = [
     "mean_angle",
     "method_parameters",
     "nested",
+    "os_error_text",
     "parameter",
     "quaternion_matrices",
     "quaternion_matrix",

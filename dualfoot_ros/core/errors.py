@@ -9,6 +9,13 @@ class DualFootError(Exception):
     """Root of every error this package raises on purpose."""
 
 
+def os_error_text(error: OSError) -> str:
+    """Return what the system says of a file, without its number: ``'walk': Permission denied``."""
+    if error.strerror is None:
+        return str(error)
+    return f"'{error.filename}': {error.strerror}" if error.filename else error.strerror
+
+
 class ConfigError(DualFootError):
     """A parameter is unknown, of the wrong type or out of its range."""
 

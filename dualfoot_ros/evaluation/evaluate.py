@@ -82,6 +82,11 @@ class Evaluation:
         return {"left": self.trajectory.left, "right": self.trajectory.right}
 
     @property
+    def tracked_feet(self) -> tuple[str, ...]:
+        """Names of the feet that had samples."""
+        return tuple(foot for foot, track in self.feet_tracks.items() if track.present.any())
+
+    @property
     def alignment_name(self) -> str:
         """Description of how the frame was fixed."""
         if self.aligned_to is None:

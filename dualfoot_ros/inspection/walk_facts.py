@@ -105,7 +105,7 @@ def _steps(foot: FootTrajectory, other: FootTrajectory) -> StepFacts:
     gap = int(np.argmax(swings)) if len(swings) else -1
     return StepFacts(
         strides=int(strides.sum()),
-        paced=float(np.minimum(lengths[strides] / median_m, 1.0).sum()),
+        paced=float(_paced(foot, bounds, lengths / median_m)[strides].sum()),
         median_stride_m=median_m,
         longest_stride_m=float(lengths[longest]) if longest >= 0 else float("nan"),
         longest_at_s=(
@@ -118,6 +118,17 @@ def _steps(foot: FootTrajectory, other: FootTrajectory) -> StepFacts:
         moving_share=_moving_share(foot, bounds, strides),
         way_m=float(lengths.sum()),
     )
+
+
+def _paced(foot: FootTrajectory, bounds: IntArray, shares: FloatArray) -> FloatArray:
+    """Return what each stride counts: one, and its share beside a stand, where it may be half.
+
+    Between steps every stride counts in full, however short: on stairs all of them are.
+    """
+    stamps = foot.stamp_ns
+    stood = (stamps[bounds[:, 1] - 1] - stamps[bounds[:, 0]]) * 1e-9 > STEP_STANCE_S
+    counted: FloatArray = np.where(stood[:-1] | stood[1:], np.minimum(shares, 1.0), 1.0)
+    return counted
 
 
 def _seconds(foot: FootTrajectory, epoch: int) -> float:

@@ -161,11 +161,18 @@ def _check_is_bag(path: Path) -> None:
             f"folder '{path}' is no rosbag2 recording: it has no {METADATA} and no .mcap or .db3 "
             "file; give the folder of one, or a bag file"
         )
+    _check_readable(path)
     if path.is_file() and path.suffix not in (*SCANS, ROS1):
         raise RecordingError(
             f"'{path}' is no recording of ROS; allowed is the folder of a bag, a .mcap, a .db3 or "
             "a .bag file; a sensor's export is turned into a bag by 'dualfoot import'"
         )
+
+
+def _check_readable(path: Path) -> None:
+    """Open the files of a bag once: a reader calls one that it may not open damaged."""
+    for file in [path] if path.is_file() else bag_files(path):
+        file.open("rb").close()
 
 
 def _damaged(path: Path, error: Exception) -> RecordingError:

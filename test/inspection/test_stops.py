@@ -1,4 +1,4 @@
-"""Stops of a walk are nothing to warn of."""
+"""Stops and stairs of a walk are nothing to warn of."""
 
 import pytest
 from processes import ROOT
@@ -17,6 +17,11 @@ def kinds(recording):
 @pytest.mark.parametrize("stops", [3, 6])
 def test_a_person_who_always_starts_and_stops_with_the_same_foot_misses_no_stance(stops):
     made = simulate(WalkConfig(route="figure_eight", rate=60.0, stops=stops), seed=4)
+    assert FindingKind.MISSED_STANCES not in kinds(Recording(made.left, made.right))
+
+
+def test_the_short_strides_of_stairs_miss_no_stance():
+    made = simulate(WalkConfig(route="stairs", rate=60.0), seed=2)
     assert FindingKind.MISSED_STANCES not in kinds(Recording(made.left, made.right))
 
 

@@ -50,7 +50,8 @@ class FloorPlan:
             raise EvaluationError(f"floor plan '{path}' is no PNG; convert it to one")
         if scale is None or not (math.isfinite(scale) and scale > 0):
             raise EvaluationError(
-                f"--scale is {scale}; with --floor-plan it is needed: more than 0 m for one pixel"
+                f"--scale is {'missing' if scale is None else scale}; with --floor-plan it is "
+                "needed: more than 0 m for one pixel"
             )
         return cls(png, scale, *_start(start))
 
@@ -86,7 +87,8 @@ def _start(text: str | None) -> tuple[tuple[float, float], float]:
         values = []
     if len(values) not in (2, 3) or not all(map(math.isfinite, values)):
         raise EvaluationError(
-            f"--start-pixel is '{text}'; with --floor-plan it is needed: COLUMN,ROW or "
-            "COLUMN,ROW,DIRECTION (pixels from the upper left; degrees, 0 right, 90 up)"
+            f"--start-pixel is {'missing' if text is None else repr(text)}; with --floor-plan it "
+            "is needed: COLUMN,ROW or COLUMN,ROW,DIRECTION (pixels from the upper left; degrees, "
+            "0 right, 90 up)"
         )
     return (values[0], values[1]), values[2] if len(values) == 3 else 0.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -17,7 +18,9 @@ ADAPTERS = {foot: f"{foot}/imu_adapter" for foot in FEET}
 NODES = (FUSION, SYNC, "replay", *ADAPTERS.values())
 GONE_S = 5.0  # without a report: the node has ended, or does not come through
 LEAST_S = 0.5  # between two counts that make a rate
-RECEIVED, LOST = "received ", "lost "
+RECEIVED = "received "
+LOSSES = ("lost ", "dropped ")
+"""On the way to a node, and in its queue, as it was too slow for them."""
 
 Counts = dict[str, float | None]
 
@@ -102,10 +105,11 @@ class NodeReports:
             report = self.known().get(node)
             key = None if report is None else _counter(report, foot)
             if report is not None and key is not None:
+                topic = key.removeprefix(RECEIVED)
                 return {
                     "rate": report.rates.get(key),
                     "received": report.counts[key],
-                    "lost": _number(report.values.get(LOST + key.removeprefix(RECEIVED))),
+                    "lost": _sum(report.values.get(word + topic) for word in LOSSES),
                 }
         return {"rate": None, "received": None, "lost": None}
 
@@ -140,6 +144,12 @@ def _count(report: Report, before: Report) -> None:
         first = counts.get(key)
         if first is not None and last is not None and last >= first:
             report.rates[key] = (last - first) / passed_s
+
+
+def _sum(texts: Iterable[str | None]) -> float | None:
+    """Return the sum of the numbers among ``texts``, None where there are none."""
+    numbers = [number for number in map(_number, texts) if number is not None]
+    return sum(numbers) if numbers else None
 
 
 def _number(text: str | None) -> float | None:

@@ -21,7 +21,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 
-from ...core import DualFootError, ParameterSpec
+from ...core import DualFootError, ParameterSpec, os_error_text
 from .executor import Executor
 
 SOURCE_LINE = re.compile(r" ?, at \S+:\d+")  # where in rcl's own source an error was found
@@ -83,7 +83,7 @@ def run_nodes(
     except ParameterException as error:  # of a parameter that rclpy declares: use_sim_time
         return _refuse(program, f"a parameter of ROS cannot be used: {in_one_line(error)}")
     except OSError as error:
-        return _refuse(program, str(error))
+        return _refuse(program, os_error_text(error))
     finally:
         _ignore_signals()
     return 0

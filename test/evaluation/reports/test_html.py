@@ -14,6 +14,7 @@ from dualfoot_ros.evaluation.reports.html.page import script_data
 from dualfoot_ros.evaluation.reports.html.page_tables import column, thin
 from dualfoot_ros.evaluation.reports.html.walk_page import walk_page
 from dualfoot_ros.evaluation.reports.html.words import Tone, _symmetry, in_words
+from dualfoot_ros.evaluation.reports.plots import draw_all
 from dualfoot_ros.inspection import Finding, FindingKind, Severity
 from dualfoot_ros.recording.reference import Reference
 
@@ -148,6 +149,16 @@ def test_a_comparison_names_the_best_and_every_failure():
     assert len(data_of(page)["charts"]) == 2
 
 
+def test_a_comparison_calls_no_method_best_where_the_figures_read_the_same():
+    entries = entries_of()
+    rows = rows_of(entries)
+    for row in rows:
+        row["midpoint_rmse_m"] = 0.293 if row["case"] == "zupt" else 0.291
+    page = comparison_page(entries, rows, {})
+    assert "All 2 have the same error against the truth (RMSE): 0.29 m." in page
+    assert "smallest" not in page
+
+
 def test_a_comparison_shows_baseline_best_worst_and_default_at_first():
     names = ("max_distance", "zupt", "idc", "min_distance", "step_length", "spacing_vector")
     first = entries_of()[0]
@@ -192,3 +203,19 @@ def test_a_long_walk_hides_the_lines_that_would_fill_the_plot_and_keeps_the_mome
     page = walk_page({"a": evaluate(track, truth=truth)}, "a walk")
     apart = data_of(page)["charts"]["0.apart"]["series"]
     assert [s.get("shown", True) for s in apart] == [False, True, False, True]
+
+
+def test_a_report_of_one_foot_speaks_and_draws_of_that_foot_alone(tmp_path):
+    track, _ = perfect(rectangle())
+    track.right.present[:] = False
+    for values in (track.right.position, track.right.stance):
+        values[:] = 0
+    run = evaluate(track)
+    page = walk_page({"zupt": run}, "a walk")
+    assert "strides of the left foot alone" in page
+    charts = data_of(page)["charts"]
+    assert "0.apart" not in charts and len(charts) == 7
+    names = {series["name"] for chart in charts.values() for series in chart["series"]}
+    assert "left foot" in names and not any("right" in name for name in names)
+    paths = draw_all({"zupt": run}, tmp_path, "a walk")
+    assert [path.stem for path in paths] == ["tracks", "stances"]

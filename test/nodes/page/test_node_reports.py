@@ -51,6 +51,13 @@ def test_what_arrives_is_counted_where_it_arrives_first(clock):
     assert reports.foot("left")["lost"] == 7
 
 
+def test_samples_that_a_slow_node_dropped_are_lost_too(clock):
+    reports = NodeReports("/")
+    reports.take(report("time_sync", counts(500, 3, **{"dropped /left/imu/data_raw": 215})))
+    assert reports.foot("left")["lost"] == 218
+    assert reports.foot("right")["lost"] == 3
+
+
 @pytest.mark.parametrize(
     ("values", "state"),
     [

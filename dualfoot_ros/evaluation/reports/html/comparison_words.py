@@ -48,6 +48,9 @@ def in_words(cases: Mapping[str, Rows], failures: Mapping[str, str]) -> Iterator
 def _judgement(cases: Mapping[str, Rows], figure: str) -> str:
     order = ranking(cases, figure)
     (least, best), (most, worst) = order[0], order[-1]
+    if len(order) > 1 and number(least) == number(most):
+        alike = f"All {len(order)} have the same {JUDGED[figure]}: {number(least)} m"
+        return f"{alike}{_of_how_many(cases, figure)}."
     text = f"{best} has the smallest {JUDGED[figure]}: {number(least)} m"
     default = TrackerConfig().method
     own = {case: error for error, case in order}

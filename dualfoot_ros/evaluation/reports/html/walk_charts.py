@@ -34,10 +34,12 @@ def walk_charts(run: Evaluation, person: PersonTrack) -> dict[str, dict[str, Any
         "height_walked": _height(run, "walked", "distance walked (m)"),
         "uncertainty": _uncertainty(run),
         "apart": _apart(run, person, moments),
-        "stances": _stances(),
-        "stride_length": _strides("length", "Stride length", "m"),
-        "speed": _strides("speed", "Speed of each stride", "m/s"),
+        "stances": _stances(run),
+        "stride_length": _strides(run, "length", "Stride length", "m"),
+        "speed": _strides(run, "speed", "Speed of each stride", "m/s"),
     }
+    if len(run.tracked_feet) < len(FEET):
+        del charts["apart"]
     told = TOLD + ([["error", "error (m)", 2]] if run.truth is not None else [])
     for chart in charts.values():
         chart["told"] = told
@@ -60,7 +62,7 @@ def _map(run: Evaluation, person: PersonTrack) -> dict[str, Any]:
     series.append(line("95 % of the place", PERSON, "x", "y", style="ellipses"))
     series += [
         line(f"{foot} foot", FOOT[foot], f"{foot}_x", f"{foot}_y", width=1, shown=not long)
-        for foot in FEET
+        for foot in run.tracked_feet
     ]
     series.append(line("person", PERSON, "x", "y", width=2))
     for foot in run.markers if run.aligned_to == "markers" else ():
@@ -97,9 +99,12 @@ def _height(run: Evaluation, over: str, label: str) -> dict[str, Any]:
         series.append(line("true floor", TRUTH, over, "true_floor", width=4, opacity=0.7))
     series += [
         line(f"{foot} foot", FOOT[foot], over, f"{foot}_z", width=0.8, shown=False)
-        for foot in FEET
+        for foot in run.tracked_feet
     ]
     series.append(line("where the feet stand", PERSON, over, "floor", width=2))
+    zero = "Of the sensors, above their place at the start."
+    if run.truth is not None:
+        zero = "Of the sensors, so it begins with their height on the shoe."
     return {
         "title": "Height over time" if over == "time" else "Height over distance",
         "kind": "line",
@@ -110,8 +115,8 @@ def _height(run: Evaluation, over: str, label: str) -> dict[str, Any]:
         "least": 0.5,
         "link": "walk",
         "series": series,
-        "note": "Of the sensors, so it begins with their height on the shoe. Floors and stairs "
-        "show as steps; the legend adds both feet with their swings.",
+        "note": f"{zero} Floors and stairs show as steps; the legend adds the feet with their "
+        "swings.",
     }
 
 
@@ -166,14 +171,14 @@ def _apart(run: Evaluation, person: PersonTrack, moments: str) -> dict[str, Any]
     }
 
 
-def _stances() -> dict[str, Any]:
+def _stances(run: Evaluation) -> dict[str, Any]:
     bars = [
         {
             **line(f"{foot} foot stands", FOOT[foot], "start", "", style="bars", row=row),
             "table": foot,
             "end": "end",
         }
-        for row, foot in enumerate(FEET)
+        for row, foot in enumerate(run.tracked_feet)
     ]
     return {
         "title": "Stance phases",
@@ -181,20 +186,20 @@ def _stances() -> dict[str, Any]:
         "group": "time",
         "over": "time",
         "x": "time since the start (s)",
-        "rows": list(FEET),
+        "rows": list(run.tracked_feet),
         "link": "walk",
         "series": bars,
         "note": "Foot-flat phases, as the zero-velocity detector found them. Zoom in to see them.",
     }
 
 
-def _strides(column: str, title: str, unit: str) -> dict[str, Any]:
+def _strides(run: Evaluation, column: str, title: str, unit: str) -> dict[str, Any]:
     dots = [
         {
             **line(f"{foot} foot", FOOT[foot], "time", column, style="dots", width=2.5),
             "table": f"strides_{foot}",
         }
-        for foot in FEET
+        for foot in run.tracked_feet
     ]
     return {
         "title": title,

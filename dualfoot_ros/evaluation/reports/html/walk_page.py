@@ -146,9 +146,9 @@ def _gait_table(run: Evaluation) -> str:
 
 
 def _gait_words(run: Evaluation) -> str:
-    counts = [run.gait.count(foot, steady=True) for foot in ("left", "right")]
+    counts = [str(run.gait.count(foot, steady=True)) for foot in run.tracked_feet]
     return (
-        f'<p class="soft">Over {counts[0]} and {counts[1]} steady strides: not the first or last '
+        f'<p class="soft">Over {" and ".join(counts)} steady strides: not the first or last '
         "of a bout, straight and level. ± is the standard deviation from stride to stride, "
         "variability its share of the mean, symmetry (right - left) / mean. Single strides are in "
         "strides.csv.</p>"

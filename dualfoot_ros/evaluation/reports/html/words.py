@@ -49,17 +49,23 @@ def in_words(run: Evaluation, person: PersonTrack) -> list[Sentence]:
 
 def _warnings(run: Evaluation) -> Iterator[Sentence]:
     for finding in run.findings:
-        yield Sentence(f"{finding.sentence}.", Tone.WARNING)
+        yield Sentence(f"{_capital(finding.sentence)}.", Tone.WARNING)
     if run.run_s is not None and not run.findings:
         yield Sentence("The checks of the recording found nothing suspicious.", Tone.GOOD)
 
 
 def _walk(run: Evaluation, person: PersonTrack) -> Iterator[Sentence]:
     strides = len(run.gait.strides)
+    feet = run.tracked_feet
+    whose = "both feet together" if len(feet) > 1 else f"the {''.join(feet)} foot alone"
     yield Sentence(
         f"The person walked {person.walked_m[-1]:.1f} m in {duration(person)}, "
-        f"with {strides} strides of both feet together (method {run.trajectory.method})."
+        f"with {strides} strides of {whose} (method {run.trajectory.method})."
     )
+
+
+def _capital(sentence: str) -> str:
+    return f"{sentence[:1].upper()}{sentence[1:]}"
 
 
 def duration(person: PersonTrack) -> str:
@@ -148,4 +154,4 @@ def _notes(run: Evaluation) -> Iterator[Sentence]:
     warned = {f"warning: {finding.sentence}" for finding in run.findings}
     for note in run.notes:
         if note not in warned:
-            yield Sentence(f"{note[0].upper()}{note[1:]}.")
+            yield Sentence(f"{_capital(note)}.")

@@ -63,7 +63,7 @@ def _panel(axis: Axes, run: Evaluation) -> None:
 
 
 def _curve(axis: Axes, time: FloatArray, values: FloatArray, colour: str, name: str) -> None:
-    """Draw a curve; on a long walk the band between its least and largest values."""
+    """Draw a curve; on a long walk its least and largest values, with the truth as a band."""
     if time[-1] <= LONG_S:
         width = 1.8 if colour == TRUTH else 0.6
         axis.plot(time, values, color=colour, linewidth=width, label=name)
@@ -71,6 +71,10 @@ def _curve(axis: Axes, time: FloatArray, values: FloatArray, colour: str, name: 
     starts = np.unique(np.linspace(0, len(values) - 1, BANDS).astype(np.int64))
     low, high = np.minimum.reduceat(values, starts), np.maximum.reduceat(values, starts)
     label = f"{name}, least to largest"
-    axis.fill_between(
-        time[starts], low, high, step="post", color=colour, alpha=0.45, linewidth=0, label=label
-    )
+    if colour == TRUTH:
+        axis.fill_between(
+            time[starts], low, high, step="post", color=colour, alpha=0.6, linewidth=0, label=label
+        )
+        return
+    for edge, words in ((low, None), (high, label)):
+        axis.plot(time[starts], edge, color=colour, linewidth=0.6, label=words)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ...batch import Entry
 
 WIDEST = 12.0  # inches
+WIDTHS = (2.0, 0.8)  # of the lines of the feet, so that both show where one lies on the other
 
 
 def draw_compared(entries: Sequence[Entry], path: Path, title: str) -> Path:
@@ -62,10 +63,10 @@ def _panel(axis: Axes, entry: Entry) -> None:
     for foot, points in entry.tracks.markers.items():
         label = f"floor markers ({foot} foot)"
         axis.plot(*points.T, "s", mfc="none", mec=MARKER, markersize=5, label=label)
-    for foot, track in entry.tracks.estimate.items():
-        axis.plot(*track.T, color=FOOT[foot], linewidth=0.8, label=f"{foot} foot")
-        label = f"end of the {foot} foot"
-        axis.plot(*track[-1], "X", color=FOOT[foot], mec="black", markersize=6, label=label)
+    for (foot, track), width in zip(entry.tracks.estimate.items(), WIDTHS, strict=False):
+        axis.plot(*track.T, color=FOOT[foot], linewidth=width, label=f"{foot} foot")
+        label, size = f"end of the {foot} foot", 4 + 2.5 * width
+        axis.plot(*track[-1], "X", color=FOOT[foot], mec="black", markersize=size, label=label)
     axis.set_title(entry.case.label, fontsize=9)
     axis.set_aspect("equal", adjustable="box")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from ....core import FEET
 from ...evaluate import Evaluation
 from ...exports import FloorPlan
 from .distance import draw_distance
@@ -21,9 +22,12 @@ def draw_all(
 ) -> list[Path]:
     """Draw the figures of one or more runs of the same walk and return their paths."""
     first = next(iter(runs.values()))
+    distance = []
+    if len(first.tracked_feet) == len(FEET):
+        distance.append(draw_distance(runs, directory / "feet_distance.png", title))
     paths = [
         draw_tracks(runs, directory / "tracks.png", title, floor_plan),
-        draw_distance(runs, directory / "feet_distance.png", title),
+        *distance,
         draw_stances(first, directory / "stances.png", title),
     ]
     if first.truth is not None:

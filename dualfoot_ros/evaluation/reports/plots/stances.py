@@ -19,22 +19,22 @@ Bar = tuple[float, float]  # start and length, s
 
 
 def draw_stances(run: Evaluation, path: Path, title: str) -> Path:
-    """Draw the stances of both feet from the start of the estimate."""
+    """Draw the stances of the feet from the start of the estimate."""
     stamps = run.trajectory.left.stamp_ns
     time = seconds(stamps, int(stamps[0]))
     row_s = _row_s(float(time[-1]))
     rows = max(1, math.ceil(time[-1] / row_s))
     shown = min(rows, MOST_ROWS)
     figure, axes = new_figure(11.0, 1.2 + 0.75 * shown, rows=shown)
-    feet = {foot: _bars(time, track.stance) for foot, track in run.feet_tracks.items()}
+    feet = {foot: _bars(time, run.feet_tracks[foot].stance) for foot in run.tracked_feet}
     for number, axis in enumerate(axes.flat):
         for level, (foot, stood) in enumerate(reversed(feet.items())):
             bars = _within(stood, number * row_s, (number + 1) * row_s)
             axis.broken_barh(bars, (level + 0.1, 0.8), color=FOOT[foot], linewidth=0)
         axis.set_xlim(number * row_s, (number + 1) * row_s)
         axis.set_xticks(np.arange(11) * row_s / 10 + number * row_s)
-        axis.set_ylim(0, 2)
-        axis.set_yticks([0.5, 1.5], ["right", "left"])
+        axis.set_ylim(0, len(feet))
+        axis.set_yticks([level + 0.5 for level in range(len(feet))], list(reversed(feet)))
         axis.grid(visible=False, axis="y")
     axes[-1, 0].set_xlabel("time since start (s)")
     part = "" if rows == shown else f", the first {shown * row_s:g} s of {time[-1]:.0f} s"

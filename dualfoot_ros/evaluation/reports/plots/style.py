@@ -70,6 +70,13 @@ def thinned(count: int) -> slice:
 
 
 def save(figure: Figure, path: Path) -> Path:
-    """Write a figure as PNG and return the path."""
+    """Write a figure as PNG and return the path.
+
+    The layout is solved twice where an axis has a fixed aspect: solved once, for axes that shrink
+    only after it, it lays titles and legends over each other.
+    """
+    engine = figure.get_layout_engine()
+    if engine is not None and any(axis.get_aspect() != "auto" for axis in figure.axes):
+        figure.draw_without_rendering()
     figure.savefig(path, format="png")
     return path

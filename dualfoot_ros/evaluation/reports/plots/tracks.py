@@ -50,13 +50,15 @@ def draw_tracks(
         handles, labels, loc="outside lower center", ncols=columns, fontsize=8, frameon=False
     )
     how = next(iter(runs.values())).alignment_name
-    heading = f"{title}: both feet from above"
+    heading = f"{title}: tracks from above"
     figure.suptitle(wrapped(heading, f"aligned by {how}", figure.get_figwidth()), fontsize=10)
     return save(figure, path)
 
 
 def _panel_size(runs: Mapping[str, Evaluation]) -> tuple[float, float]:
-    tracks = [f.position[:, :2] for run in runs.values() for f in run.feet_tracks.values()]
+    tracks = [
+        run.feet_tracks[foot].position[:, :2] for run in runs.values() for foot in run.tracked_feet
+    ]
     span = np.ptp(np.vstack(tracks), axis=0) + 1.0
     height = float(np.clip(6.5 * span[1] / span[0], 1.6, 7.5))
     return float(np.clip(height * span[0] / span[1] + 0.9, 3.2, 7.5)), height
@@ -75,8 +77,8 @@ def _panel(axis: Axes, run: Evaluation) -> None:
             markersize=8,
             label=f"floor markers ({foot} foot)",
         )
-    for foot, track in run.feet_tracks.items():
-        colour = FOOT[foot]
+    for foot in run.tracked_feet:
+        track, colour = run.feet_tracks[foot], FOOT[foot]
         stood = Footfalls.of(track).mean(track.position)
         # On a long walk both lines lie on each other: the first is wide, so that both show.
         width = WIDE if foot == FEET[0] and len(stood) > MOST_DOTS else 0.9
@@ -117,7 +119,7 @@ def _from_above(position: FloatArray) -> FloatArray:
 
 
 def _ends(axis: Axes, run: Evaluation) -> None:
-    tracks = run.feet_tracks.values()
+    tracks = [run.feet_tracks[foot] for foot in run.tracked_feet]
     for index, symbol, label in ((0, "^", "start"), (-1, "X", "end")):
         x, y = np.mean([t.position[index, :2] for t in tracks], axis=0)
         axis.plot(

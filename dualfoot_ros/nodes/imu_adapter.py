@@ -6,7 +6,6 @@ import sys
 from functools import partial
 from typing import Any
 
-import numpy as np
 from rclpy.node import Node
 from rclpy.task import Future
 from sensor_msgs.msg import Imu
@@ -18,12 +17,10 @@ from ..core import (
     ImuSeries,
     Increments,
     MountingConfig,
-    Refusal,
     SourceError,
     Vector,
 )
 from ..drivers import CheckConfig, SensorCheck
-from ..drivers import Sample as DriverSample
 from ..settings import (
     AdapterConfig,
     CovarianceConfig,
@@ -40,20 +37,19 @@ from .adapter.conversion import Conversion
 from .adapter.device import Device
 from .adapter.first_seconds import FirstSeconds
 from .adapter.losses import in_words, select_counts
+from .adapter.sample_output import SampleOutput
 from .inputs.calibrations import FOOT_UNKNOWN, find_foot, load_for_sensor
 from .inputs.field_topics import FieldOutput
 from .inputs.increments_topics import IncrementsOutput
 from .inputs.stamper import Stamper
 from .inputs.topic_search import TopicSearch
-from .inputs.unit_check import UnitCheck
 from .playback.player import Player, Sample, in_order, wait_to_begin
 from .ros import qos
 from .ros.declared_parameters import declare, group
 from .ros.diagnostics import Reporter
-from .ros.messages import imu_values, new_imu, set_imu_values, set_time, to_ns
+from .ros.messages import imu_values, new_imu, to_ns
 from .ros.program import Graph, Program, run_nodes
 from .ros.watched_input import InputMonitor, WatchedInput
-from .ros.watched_publisher import watched_publisher
 
 MAG, INCREMENTS = "imu/mag", "imu/increments"
 CHOOSE = "the parameter source of this imu_adapter, as in topic:///TOPIC"
@@ -111,13 +107,11 @@ class ImuAdapterNode(Node):
         )
         if named is None:
             self.get_logger().warning(f"taken for the {self._foot} foot, as {FOOT_UNKNOWN}")
-        self.counters: dict[str, int] = {"relayed": 0, Refusal.NOT_FINITE: 0}
         self.done: Future = Future()
         self.monitor: InputMonitor | None = None
         self.player: Player | None = None
         self.device: Device | None = None
         self.check = SensorCheck(group(CheckConfig, values, "checks."))
-        self._unit_check = UnitCheck(self.get_logger().warning)
         self._depth = group(InputConfig, values, "input.").depth
         self._added_ns: int | None = None  # by the stamping, to the newest sample of a file
         self._create_outputs(values)
@@ -125,11 +119,15 @@ class ImuAdapterNode(Node):
         stamping = sources.choose_stamping(source, self._config, self._foot)
         self.stamper = Stamper(stamping, group(DeviceClockConfig, values, "clock."))
         self.first_seconds = FirstSeconds(self, source, self.stamper, lambda: self._input.topic)
+        self._output.begin(self.stamper, self.first_seconds)
         self._open(source, values)
         self._reporter = Reporter(self, values, self._make_report().collect)
 
     def _create_outputs(self, values: dict[str, Any]) -> None:
-        self._out = watched_publisher(self, Imu, "imu/data_raw", qos.sensor(self._depth))
+        self._output = SampleOutput(
+            self, self._config, self._foot, self._depth, self._conversion, self.check
+        )
+        self.counters = self._output.counters
         self._frame_id = self._config.frame_id or f"{self._foot}_imu"
         self._own_message = new_imu(self._frame_id)
         self.field: FieldOutput | None = None
@@ -166,7 +164,7 @@ class ImuAdapterNode(Node):
 
     def _read_device(self, source: sources.Source, config: InputConfig, play: PlayConfig) -> None:
         self._publish_field()
-        begin = partial(wait_to_begin, play, self._has_listener)
+        begin = partial(wait_to_begin, play, self._output.has_listener)
         self.device = Device(
             self,
             source.target,
@@ -192,7 +190,7 @@ class ImuAdapterNode(Node):
             self._play,
             play,
             alive=self.context.ok,
-            ready=self._has_listener,
+            ready=self._output.has_listener,
             finished=self._finish,
         )
         self.player.start()
@@ -200,25 +198,22 @@ class ImuAdapterNode(Node):
     def _publish_field(self) -> None:
         self.field = FieldOutput(self, MAG, self._frame_id, self._depth)
 
-    def _has_listener(self) -> bool:
-        return bool(self._out.get_subscription_count() > 0)
-
     def _relay(self, message: Imu) -> None:
         if self._config.frame_id:
             message.header.frame_id = self._config.frame_id
         header_ns = to_ns(message.header.stamp)
-        sensed = self._check_sample(header_ns, imu_values(message))
+        sensed = self._output.check(header_ns, imu_values(message))
         if sensed is not None:
-            self._send(message, header_ns, self._input.arrival_ns, sensed)
+            self._output.send(message, header_ns, self._input.arrival_ns, sensed)
 
     def _play(self, sample: Sample) -> None:
         if sample.foot == MAG:
             self._play_field(sample)
             return
-        sensed = self._check_sample(sample.stamp_ns, sample.values)
+        sensed = self._output.check(sample.stamp_ns, sample.values)
         if sensed is not None:
             now_ns = int(self.get_clock().now().nanoseconds)
-            stamp_ns = self._send(self._own_message, sample.stamp_ns, now_ns, sensed)
+            stamp_ns = self._output.send(self._own_message, sample.stamp_ns, now_ns, sensed)
             self._added_ns = None if stamp_ns is None else stamp_ns - sample.stamp_ns
 
     def _play_field(self, sample: Sample) -> None:
@@ -232,43 +227,9 @@ class ImuAdapterNode(Node):
     ) -> None:
         """Send a sample of a device, which its source has checked."""
         sensed = self._conversion.scale(values)
-        stamp_ns = self._send(self._own_message, device_ns, arrival_ns, sensed)
+        stamp_ns = self._output.send(self._own_message, device_ns, arrival_ns, sensed)
         if self.field is not None and field is not None and stamp_ns is not None:
             self.field.publish(stamp_ns, self._conversion.field(field))
-
-    def _check_sample(self, header_ns: int, values: FloatArray) -> FloatArray | None:
-        """Return a sample (6,) in SI units and the axes of the sensor; None when refused."""
-        sensed = self._conversion.scale(values)
-        if not np.isfinite(sensed).all():
-            self.counters[Refusal.NOT_FINITE] += 1
-            self.check.interrupt()
-            return None
-        force, rate = tuple(sensed[:3].tolist()), tuple(sensed[3:].tolist())
-        return sensed if self.check.accept(DriverSample(header_ns, force, rate)) else None
-
-    def _send(
-        self, message: Imu, header_ns: int | None, arrival_ns: int, sensed: FloatArray
-    ) -> int | None:
-        """Publish a sample; return its stamp, None when it gets none."""
-        self.first_seconds.add(header_ns, arrival_ns, sensed)
-        stamp_ns = self._stamp(header_ns, arrival_ns)
-        if stamp_ns is None:
-            return None
-        values = self._conversion.turn(sensed)
-        self._unit_check.add(values.tolist())
-        set_time(message.header.stamp, stamp_ns)
-        set_imu_values(message, values)
-        self._conversion.convert_covariances(message)
-        self._out.publish(message)
-        self.counters["relayed"] += 1
-        return stamp_ns
-
-    def _stamp(self, header_ns: int | None, arrival_ns: int) -> int | None:
-        if header_ns is None and self._config.stamp == "even":
-            header_ns = 0
-        if header_ns is None:  # a device without a clock
-            return arrival_ns + round(1e9 * self._config.stamp_offset)
-        return self.stamper.stamp(self._foot, header_ns, arrival_ns)
 
     def _finish(self, error: SourceError | None = None) -> None:
         if error is not None:
@@ -284,7 +245,7 @@ class ImuAdapterNode(Node):
 
     def _make_report(self) -> AdapterReport:
         links = self.monitor, self.device, self.stamper
-        parts = self.field, self.increments, *links, self._unit_check
+        parts = self.field, self.increments, *links, self._output.unit_check
         described = [part for part in parts if part is not None]
         return AdapterReport(self.counters, self.check, described, self._outcomes)
 

@@ -34,7 +34,7 @@ class Adapter:
         probe.create_subscription(DiagnosticArray, "/diagnostics", self.reports.append, 10)
         values = {"source": source, "reports.period": 0.1, **values}
         self.node = bench.add(ImuAdapterNode, values, namespace="left")
-        bench.until(self.node._out.get_subscription_count, "discovery")
+        bench.until(self.node._output.has_listener, "discovery")
 
     def report(self):
         """Return the newest report."""

@@ -157,7 +157,7 @@ def test_samples_of_a_topic_that_are_not_finite_make_no_lower_rate(bench):
     node = bench.add(ImuAdapterNode, {"source": "topic:///x", "checks.rate": 200.0})
     for k in range(900):
         values = STANDING if k % 3 else STANDING * math.nan
-        node._check_sample(k * 5_000_000, values + 1e-3 * math.sin(k))
+        node._output.check(k * 5_000_000, values + 1e-3 * math.sin(k))
     assert node.check.rate_hz == pytest.approx(200.0)
 
 

@@ -10,8 +10,11 @@ The soak feeds pairs one by one, as live, in real time divided by whatever the m
 from __future__ import annotations
 
 import argparse
+import ctypes
 import gc
+import math
 import resource
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -122,31 +125,75 @@ def feed(tracker: DualFootTracker, values: FloatArray, stamp: int, period_ns: in
     return stamp
 
 
-def soak(hours: float, rate: float) -> list[float]:
-    """Feed hours of data one by one; return the resident memory (MiB) after each part of ten."""
+@dataclass(frozen=True)
+class Memory:
+    """What a process holds.
+
+    Attributes
+    ----------
+    resident_mib : memory that is resident, as the system maps it; libraries are a third of it
+    allocated_mib : what has been allocated by malloc, where that tells (glibc)
+    blocks : objects and buffers that Python has allocated
+    """
+
+    resident_mib: float
+    allocated_mib: float
+    blocks: int
+
+    @classmethod
+    def now(cls) -> Memory:
+        """Return what is held when all garbage has been collected."""
+        gc.collect()
+        return cls(resident_mib(), allocated_mib(), sys.getallocatedblocks())
+
+
+def soak(hours: float, rate: float) -> list[Memory]:
+    """Feed hours of data one by one; return the memory after each part of ten."""
     stand, loop = endless(rate)
     tracker = DualFootTracker(engine="compiled")
     period_ns = round(1e9 / rate)
     stamp = feed(tracker, loop, feed(tracker, stand, 0, period_ns), period_ns)
     part = round(hours * 3600.0 * rate / 10.0)
-    held = [resident_mib()]
+    held = [Memory.now()]
     for _ in range(10):
         left = part
         while left > 0:
             stamp = feed(tracker, loop[:left], stamp, period_ns)
             left -= len(loop)
-        held.append(resident_mib())
+        held.append(Memory.now())
     return held
 
 
 def resident_mib() -> float:
     """Return the memory that the process holds now, MiB."""
-    gc.collect()
     try:
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
         return pages * resource.getpagesize() / MIB
     except OSError:  # not on Linux: the peak
         return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+
+
+class MallocInfo(ctypes.Structure):
+    """The struct of mallinfo2(3)."""
+
+    _fields_ = tuple(
+        (name, ctypes.c_size_t)
+        for name in (
+            *("arena", "ordblks", "smblks", "hblks", "hblkhd"),
+            *("usmblks", "fsmblks", "uordblks", "fordblks", "keepcost"),
+        )
+    )
+
+
+def allocated_mib() -> float:
+    """Return what malloc has given out and not got back, MiB; nan where it does not tell."""
+    try:
+        ask = ctypes.CDLL(None).mallinfo2
+    except (AttributeError, TypeError, OSError):  # another C library
+        return math.nan
+    ask.restype = MallocInfo
+    told = ask()
+    return float(told.uordblks + told.hblkhd) / MIB
 
 
 def main() -> int:
@@ -164,8 +211,12 @@ def main() -> int:
         console.print(run_epochs(arguments.epochs, arguments.rate, arguments.method))
     if arguments.hours > 0.0:
         held = soak(arguments.hours, arguments.rate)
-        parts = " ".join(f"{each - held[0]:+.2f}" for each in held)
-        console.print(f"{arguments.hours:g} h of data: {held[0]:.1f} MiB, then {parts} MiB")
+        first = held[0]
+        parts = " ".join(f"{each.resident_mib - first.resident_mib:+.2f}" for each in held)
+        console.print(f"{arguments.hours:g} h of data: {first.resident_mib:.1f} MiB, then {parts}")
+        given = " ".join(f"{each.allocated_mib - held[1].allocated_mib:+.3f}" for each in held[1:])
+        blocks = " ".join(f"{each.blocks - held[1].blocks:+d}" for each in held[1:])
+        console.print(f"since the first part: malloc {given} MiB; Python {blocks} blocks")
     return 0
 
 

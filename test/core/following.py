@@ -41,12 +41,13 @@ def live(tracker: DualFootTracker, pairs: Pairs, found: Followed | None = None) 
         found.engines.add(tracker.engine)
         if update.refused is not None:
             found.refused[update.refused] = found.refused.get(update.refused, 0) + 1
-        if any(event.kind is EventKind.RESET for event in update.announced):
-            found.stamps, found.rows, found.events = [], [], []
-        if update.row is not None:
-            found.stamps.append(update.stamp_ns)
-            found.rows.append(update.row)
-        found.events.extend(update.announced)
+        for each in (*update.earlier, update):
+            if any(event.kind is EventKind.RESET for event in each.announced):
+                found.stamps, found.rows, found.events = [], [], []
+            if each.row is not None:
+                found.stamps.append(each.stamp_ns)
+                found.rows.append(each.row)
+            found.events.extend(each.announced)
     return found
 
 

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import DualFootTracker, EventKind, ImuPair, TrackerConfig, bias_after
+from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.simulation import Gait, WalkConfig, grade, simulate
 
-from .harness import quick_engine
+from .following import live, same_bits
+from .harness import Pairs, quick_engine
 
 ENGINE = quick_engine().name
 RATE = 100.0
@@ -94,6 +96,21 @@ def test_one_foot_alone_starts_as_two_do(standing, cut_s, kind):
     both, one = run(left, right), run(left, alone(right))
     assert start_of(one)["start"] == start_of(both)["start"] == kind
     assert way_of(one.left) == pytest.approx(way_of(both.left), rel=0.06)
+
+
+@pytest.mark.parametrize("cut_s", [0.0, 2.5], ids=["restless stand", "first stances"])
+@pytest.mark.parametrize("feet", [1, 2])
+def test_a_start_that_pairs_wait_for_has_the_bits_of_the_batch_run(feet, cut_s):
+    walk = made(standing=1.2, final_standing=2.0)
+    moving = slice(round(cut_s * RATE), round(20.0 * RATE))
+    left, right = walk.left[moving], walk.right[moving]
+    right = right if feet == 2 else alone(right)
+    pairs = Pairs(left.stamp_ns, stack_pairs(left, right))
+    followed = live(DualFootTracker(engine=ENGINE), pairs)
+    assert {e.detail["start"] for e in followed.events if e.kind is EventKind.ALIGNED} == {
+        "restless_stand" if cut_s == 0.0 else "first_stance"
+    }
+    same_bits(followed, DualFootTracker(engine=ENGINE).run(left, right))
 
 
 def test_a_foot_that_begins_a_second_late_is_waited_for():

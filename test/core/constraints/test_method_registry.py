@@ -173,3 +173,21 @@ def test_every_method_tells_its_dimensions_and_only_the_rigid_pair_has_one_shoe(
     assert [name for name, method in METHODS.items() if method.sensors_on_one_shoe] == [
         "rigid_pair"
     ]
+
+
+class AsksAtStart(Method):
+    """Asks for nothing at the start of a stance, but wants to know of it."""
+
+    name = "asks_at_start"
+
+    def on_stance_start(self, stance, gait):
+        return ()
+
+
+def test_only_those_who_answer_are_asked_at_the_start_of_a_stance():
+    config = AsksAtStart.config_class()
+    assert AsksAtStart(config).asks_at_start
+    asking = {
+        name for name in METHODS if METHODS[name](METHODS[name].config_class()).asks_at_start
+    }
+    assert asking == {"varying_distance"}

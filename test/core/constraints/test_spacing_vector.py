@@ -172,3 +172,15 @@ def test_not_in_a_stand_nor_while_both_feet_stand():
     assert not method().on_stance_end(stance(0, 40, 70), MadeUpGait(still))
     moving = method(moment="feet_adjacent")
     assert not moving.on_stance_end(stance(0, 40, 70), MadeUpGait(still))
+
+
+@pytest.mark.parametrize(("variant", "height_std"), (("vector", 0.1), ("lateral", 0.0)))
+def test_other_rows_after_a_retune_are_those_of_the_outcome_and_of_its_dimensions(
+    variant, height_std
+):
+    changed = method(spacing=0.2)
+    changed.retune(method(spacing=0.2, variant=variant, height_std=height_std).config)
+    outcome = changed.apply(apart(3, 0.5)[1], 0.4)
+    rows = {"vector": 3, "lateral": 1}[variant]
+    assert changed.dimensions == len(outcome.innovation) == len(outcome.S) == rows
+    assert (np.diag(outcome.S) > 0.0).all()

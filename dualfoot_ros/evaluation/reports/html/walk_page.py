@@ -150,8 +150,7 @@ def _gait_words(run: Evaluation) -> str:
     return (
         f'<p class="soft">Over {" and ".join(counts)} steady strides: not the first or last '
         "of a bout, straight and level. ± is the standard deviation from stride to stride, "
-        "variability its share of the mean, symmetry (right - left) / mean. Single strides are in "
-        "strides.csv.</p>"
+        "variability its share of the mean, symmetry (right - left) / mean.</p>"
     )
 
 

@@ -30,7 +30,6 @@ from .self_calibration import self_calibration
 if TYPE_CHECKING:
     from ..calibration import BiasMemory
     from ..evaluation import Evaluation, RunOptions
-    from ..evaluation.exports import FloorPlan
     from ..recording import Correction
 
 HELP = "run one method on a bag and evaluate the tracks of both feet"
@@ -187,7 +186,7 @@ def _write(args: argparse.Namespace, result: Evaluation, metrics: dict[str, Any]
         paths.append(write_strides(folder, result))
         paths += write_exports(folder, result, exports)
         if not args.no_plots:
-            paths += _draw(args, folder, result, metrics["parameters"], exports.floor_plan)
+            paths += _draw(args, folder, result, metrics["parameters"], exports)
     return [args.output / path.name for path in paths]
 
 
@@ -196,14 +195,14 @@ def _draw(
     folder: Path,
     result: Evaluation,
     parameters: Mapping[str, Any],
-    floor_plan: FloorPlan | None,
+    exports: ExportOptions,
 ) -> list[Path]:
     from ..evaluation.reports.html import write_walk_page
     from ..evaluation.reports.plots import draw_all
 
     runs, title = {result.trajectory.method: result}, Path(recording_name(args)).name
-    page = write_walk_page(folder, runs, title, parameters, floor_plan)
-    return [*draw_all(runs, folder, title, floor_plan), page]
+    page = write_walk_page(folder, runs, title, parameters, exports.floor_plan, exports.origin)
+    return [*draw_all(runs, folder, title, exports.floor_plan), page]
 
 
 def _print(

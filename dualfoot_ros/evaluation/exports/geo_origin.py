@@ -16,7 +16,8 @@ HEADING_M = 3.0
 """The first metres, which show in which direction a walk starts."""
 
 MOST_LATITUDE = 85.0
-EAST = 90.0
+EAST = 90.0  # on a compass
+NORTH = 90.0  # from the x axis of a map
 
 
 @dataclass(frozen=True)
@@ -73,13 +74,18 @@ class GeoOrigin:
 
     def _east_north(self, person: PersonTrack) -> tuple[FloatArray, FloatArray]:
         x, y = (person.position - person.position[0])[:, :2].T
-        turn = 0.0 if self.heading is None else self._turn(person)
+        turn = self._turn(person)
         c, s = math.cos(turn), math.sin(turn)
         return c * x - s * y, s * x + c * y
 
+    def north(self, person: PersonTrack) -> float:
+        """Return the direction of north in the frame of a track, degrees from x to the left."""
+        return NORTH - math.degrees(self._turn(person))
+
     def _turn(self, person: PersonTrack) -> float:
         """Return by how much the track is turned to the left, rad, to start along ``heading``."""
-        assert self.heading is not None
+        if self.heading is None:
+            return 0.0
         return math.radians(EAST - self.heading) - start_direction(person)
 
 

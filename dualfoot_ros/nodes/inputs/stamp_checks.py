@@ -14,6 +14,9 @@ WINDOW = 200  # intervals over which jitter is judged
 UNEVEN = 0.3  # of the usual interval: 95 % of the intervals of a sampling clock differ by less
 LEAST_JITTER_NS = 2_000_000
 EQUAL_SHARE = 0.05
+WITHOUT_STAMPS = ("arrival", "even")
+"""Policies that need no stamps in the headers."""
+
 ARRIVALS = (
     "stamp the samples where they are taken, or set stamp of imu_adapter (stamping.{foot} here) "
     "to device, or to even where the device sends no time"
@@ -33,7 +36,7 @@ class StampChecks:
 
     def observe(self, foot: str, header_ns: int, stamp_ns: int) -> None:
         """Take the stamp in the header of a sample, and the one that is used."""
-        self._zeros[foot] += header_ns == 0 and self._policy(foot) != "arrival"
+        self._zeros[foot] += header_ns == 0 and self._policy(foot) not in WITHOUT_STAMPS
         step = stamp_ns - self._newest.get(foot, stamp_ns)
         self._newest[foot] = stamp_ns
         if 0 < step <= self._aligner.config.max_gap_ns:
@@ -66,7 +69,7 @@ class StampChecks:
     def _zero(self, foot: str) -> Iterator[Finding]:
         if self._zeros[foot]:
             text = f"{self._zeros[foot]} stamps of the {foot} foot are zero"
-            remedy = f"set stamping.{foot} to arrival, or stamp of imu_adapter"
+            remedy = f"set stamping.{foot} to even, or stamp of imu_adapter"
             yield Finding(FindingKind.ZERO_STAMPS, Severity.WARNING, text, remedy, foot)
 
     def _equal(self, foot: str, new: Mapping[str, int]) -> Iterator[Finding]:

@@ -3,17 +3,19 @@
 import json
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from dualfoot_ros.evaluation import evaluate
+from dualfoot_ros.evaluation.exports import GeoOrigin
 from dualfoot_ros.evaluation.person_track import person_track
 from dualfoot_ros.evaluation.reports.html.comparison_page import comparison_page
 from dualfoot_ros.evaluation.reports.html.page import script_data
 from dualfoot_ros.evaluation.reports.html.page_tables import column, thin
 from dualfoot_ros.evaluation.reports.html.walk_page import walk_page
-from dualfoot_ros.evaluation.reports.html.words import Tone, _symmetry, in_words
+from dualfoot_ros.evaluation.reports.html.words import Tone, _symmetry, clock, in_words
 from dualfoot_ros.evaluation.reports.plots import draw_all
 from dualfoot_ros.inspection import Finding, FindingKind, Severity
 from dualfoot_ros.recording.reference import Reference
@@ -219,3 +221,19 @@ def test_a_report_of_one_foot_speaks_and_draws_of_that_foot_alone(tmp_path):
     assert "left foot" in names and not any("right" in name for name in names)
     paths = draw_all({"zupt": run}, tmp_path, "a walk")
     assert [path.stem for path in paths] == ["tracks", "stances"]
+
+
+@pytest.mark.parametrize(("bearing", "north"), [(None, 90.0), (90.0, 180.0), (0.0, 90.0)])
+def test_north_is_where_the_bearing_of_the_first_metres_puts_it(bearing, north):
+    track, _ = perfect(rectangle())  # it starts along y
+    origin = GeoOrigin(48.0, 11.0, bearing)
+    data = data_of(walk_page({"zupt": evaluate(track)}, "a walk", origin=origin))
+    assert data["charts"]["0.map"]["north"] == pytest.approx(north, abs=1.0)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"), [(57, "57 s"), (680, "11:20 min"), (4460, "1:14:20 h")]
+)
+def test_the_time_of_a_tile_is_short(seconds, words):
+    stamps = np.array([10**18, 10**18 + seconds * 10**9])
+    assert clock(SimpleNamespace(stamp_ns=stamps)) == words

@@ -8,6 +8,7 @@ import pytest
 from browser import browser, why_no_browser
 
 from dualfoot_ros.evaluation import evaluate
+from dualfoot_ros.evaluation.exports import GeoOrigin
 from dualfoot_ros.evaluation.reports.html import write_comparison_page, write_walk_page
 
 from ..walks import perfect, rectangle
@@ -41,7 +42,8 @@ def report(tmp_path_factory):
     )
     track = replace(track, left=left, right=right)
     run = evaluate(track, truth=truth)
-    return write_walk_page(tmp_path_factory.mktemp("report"), {"zupt": run}, "a walk")
+    folder = tmp_path_factory.mktemp("report")
+    return write_walk_page(folder, {"zupt": run}, "a walk", origin=GeoOrigin(48.0, 11.0, 30.0))
 
 
 def errors(driver):
@@ -66,6 +68,7 @@ def test_every_plot_is_drawn_without_an_error_and_the_page_is_no_wider_than_the_
         assert errors(driver) == []
         wide = driver.execute_script("return document.documentElement.scrollWidth")
         assert wide <= width
+        assert len(driver.find_elements("css selector", "svg .north")) == 1
         outside = driver.execute_script(BAND_OUTSIDE)
         assert outside == 0
         loaded = driver.execute_script("return performance.getEntriesByType('resource').length")

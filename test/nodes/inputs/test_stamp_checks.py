@@ -40,7 +40,13 @@ def test_lost_samples_are_no_jitter():
 def test_zero_stamps_are_said_with_the_remedy():
     ((key, finding),) = found(lambda k: 0).items()
     assert key == (FindingKind.ZERO_STAMPS, "right")
-    assert "set stamping.right to arrival" in finding.remedy
+    assert "set stamping.right to even" in finding.remedy
+
+
+@pytest.mark.parametrize("policy", ["arrival", "even"])
+def test_zero_stamps_are_nothing_to_warn_of_where_none_are_needed(policy):
+    zero = (FindingKind.ZERO_STAMPS, "right")
+    assert zero not in found(lambda k: 0, policy) and zero in found(lambda k: 0, "device")
 
 
 def test_samples_that_are_bunched_on_one_stamp_are_said():

@@ -229,6 +229,7 @@ const plots = (() => {
       for (const s of this.series) if (s.shown) drawn += this.drawSeries(inside, s);
       for (const mark of this.spec.marks || []) this.drawMark(inside, mark);
       if (this.equal) this.drawScale(svg);
+      if (Number.isFinite(this.spec.north)) this.drawNorth(svg, this.spec.north);
       this.cursor = element("g", { "pointer-events": "none" }, inside);
       this.canvas.replaceChildren(svg);
       this.figure.dataset.drawn = String(drawn);
@@ -405,6 +406,15 @@ const plots = (() => {
         "stroke-width": 1.5 }, group);
       element("text", { x: x - 6, y, "text-anchor": "end", fill: "#1b1b1b" }, group)
         .textContent = `${Number(metres.toPrecision(6))} m`;
+    }
+
+    drawNorth(svg, angle) {
+      const group = element("g", { class: "north", fill: "#1b1b1b", "text-anchor": "middle",
+        transform: `translate(${this.f.left + 26} ${this.f.top + 28})` }, svg);
+      element("path", { d: "M-12 -5L14 0L-12 5L-7 0Z", transform: `rotate(${-angle})` }, group);
+      const turn = angle * Math.PI / 180;
+      element("text", { x: 21 * Math.cos(turn), y: 4 - 21 * Math.sin(turn), "font-weight": 600 },
+        group).textContent = "N";
     }
 
     // ---- pan, zoom, hover ---------------------------------------------------------------------

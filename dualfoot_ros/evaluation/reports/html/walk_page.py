@@ -9,14 +9,14 @@ from typing import Any
 
 from ....core import EventKind
 from ...evaluate import Evaluation
-from ...exports import FloorPlan
+from ...exports import FloorPlan, GeoOrigin
 from ...gait import PARAMETERS
 from ...person_track import PersonTrack
 from ..walk_table import number, sections
 from .page import figure, folded, html_table, page, section, tiles, words
 from .walk_charts import walk_charts
 from .walk_tables import walk_tables
-from .words import duration, in_words
+from .words import clock, in_words
 
 FILE_NAME = "report.html"
 MOST_EVENTS = 500
@@ -41,6 +41,7 @@ def write_walk_page(
     title: str,
     parameters: Mapping[str, Any] | None = None,
     floor_plan: FloorPlan | None = None,
+    origin: GeoOrigin | None = None,
 ) -> Path:
     """Write ``report.html`` into ``directory`` and return its path.
 
@@ -50,9 +51,11 @@ def write_walk_page(
     title : of the page, such as the name of the recording
     parameters : of the tracker by dotted name, for the end of the page
     floor_plan : picture under the track
+    origin : of the walk on the Earth, for an arrow to the north
     """
     path = directory / FILE_NAME
-    path.write_text(walk_page(runs, title, parameters, floor_plan), encoding="utf-8")
+    text = walk_page(runs, title, parameters, floor_plan, origin)
+    path.write_text(text, encoding="utf-8")
     return path
 
 
@@ -61,6 +64,7 @@ def walk_page(
     title: str,
     parameters: Mapping[str, Any] | None = None,
     floor_plan: FloorPlan | None = None,
+    origin: GeoOrigin | None = None,
 ) -> str:
     """Return the page; see :func:`write_walk_page`."""
     tables: dict[str, Any] = {}
@@ -71,6 +75,8 @@ def walk_page(
         own = _prefixed(index, walk_tables(run, person), walk_charts(run, person))
         if floor_plan is not None:
             own[1][f"{index}.map"]["picture"] = floor_plan.picture(person)
+        if origin is not None:
+            own[1][f"{index}.map"]["north"] = origin.north(person)
         tables |= own[0]
         charts |= own[1]
         body += _run_sections(run, person, list(own[1]), name if len(runs) > 1 else "")
@@ -126,7 +132,7 @@ def _tiles(run: Evaluation, person: PersonTrack) -> dict[str, str]:
         figures[name] = f"{number(run.closure.mean_m)} m"
     figures["95 % radius at the end, claimed"] = f"{person.radius_95_m[-1]:.2f} m"
     figures["height at the end"] = f"{person.floor_m[-1] - person.floor_m[0]:+.2f} m"
-    figures["time"] = duration(person)
+    figures["time"] = clock(person)
     speed = run.gait.parameters["speed_m_per_s"].both.mean
     figures["speed of steady walking"] = f"{number(speed)} m/s"
     return figures
@@ -150,8 +156,7 @@ def _gait_words(run: Evaluation) -> str:
     return (
         f'<p class="soft">Over {" and ".join(counts)} steady strides: not the first or last '
         "of a bout, straight and level. ± is the standard deviation from stride to stride, "
-        "variability its share of the mean, symmetry (right - left) / mean. Single strides are in "
-        "strides.csv.</p>"
+        "variability its share of the mean, symmetry (right - left) / mean.</p>"
     )
 
 

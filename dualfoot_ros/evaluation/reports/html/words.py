@@ -70,9 +70,21 @@ def _capital(sentence: str) -> str:
 
 def duration(person: PersonTrack) -> str:
     """Return the time of a walk in minutes and seconds."""
-    stamps = person.stamp_ns
-    minutes, seconds = divmod(round((int(stamps[-1]) - int(stamps[0])) * 1e-9), 60)
+    minutes, seconds = divmod(_seconds(person), 60)
     return f"{minutes} min {seconds} s" if minutes else f"{seconds} s"
+
+
+def clock(person: PersonTrack) -> str:
+    """Return the time of a walk in the few letters of a tile."""
+    minutes, seconds = divmod(_seconds(person), 60)
+    hours, minutes = divmod(minutes, 60)
+    if hours:
+        return f"{hours}:{minutes:02d}:{seconds:02d} h"
+    return f"{minutes}:{seconds:02d} min" if minutes else f"{seconds} s"
+
+
+def _seconds(person: PersonTrack) -> int:
+    return round((int(person.stamp_ns[-1]) - int(person.stamp_ns[0])) * 1e-9)
 
 
 def _errors(run: Evaluation, person: PersonTrack) -> Iterator[Sentence]:

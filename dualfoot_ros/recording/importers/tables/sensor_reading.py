@@ -154,6 +154,13 @@ def _dropped(keep: BoolArray, rows: BoolArray | None, foot: str) -> list[Assumpt
     return [Assumption(foot, "rows", text, Origin.VALUES, doubtful=True)]
 
 
+def _time_name(table: TableFile, place: int | None) -> str:
+    """Return the name of the column of the time, or its number from 1 where it has none."""
+    if place is None or not table.dialect.names:
+        return "time"
+    return table.dialect.names[place] or f"column {place + 1}"
+
+
 def time_source(table: TableFile, columns: Columns, foot: str, keep: BoolArray) -> TimeSource:
     """Return what the table tells about time, for the rows ``keep`` (N,)."""
     layout, given = table.layout, table.given
@@ -168,7 +175,7 @@ def time_source(table: TableFile, columns: Columns, foot: str, keep: BoolArray) 
     return TimeSource(
         table.path,
         foot,
-        table.dialect.names[place] if place is not None and table.dialect.names else "time",
+        _time_name(table, place),
         int(keep.sum()),
         None if values is None else values[keep],
         None if exact is None else exact[keep],

@@ -19,6 +19,7 @@ from .raw_text import RawText, read_text
 from .table_layout import Layout
 
 RATE_KEYS = ("rate", "frequency", "fs", "frequenz")
+DAY_FIRST = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})(?=\D)")  # 31.5.2024, always in this order
 CLOCK = re.compile(r"(?:(\d+)[:])?(\d{1,2}):(\d{1,2}(?:[.,]\d+)?)")
 
 
@@ -175,7 +176,7 @@ def _from_dates(words: Sequence[str], path: Path, name: str) -> tuple[FloatArray
     try:
         if clock and clock[0]:
             return np.array([_clock_s(word) for word in words]), None
-        plain = [word.strip().rstrip("Z").replace("/", "-").replace(" ", "T", 1) for word in words]
+        plain = [_iso_date(word) for word in words]
         exact = np.array(plain, dtype="datetime64[ns]").astype(np.int64)
     except ValueError:
         raise RecordingError(
@@ -184,6 +185,13 @@ def _from_dates(words: Sequence[str], path: Path, name: str) -> tuple[FloatArray
             "time=NAME, or give --rate HZ"
         ) from None
     return exact.astype(np.float64), exact
+
+
+def _iso_date(word: str) -> str:
+    """Return a date as numpy reads it."""
+    plain = word.strip().rstrip("Z").replace("/", "-").replace(",", ".")
+    plain = DAY_FIRST.sub(lambda m: f"{m[3]}-{int(m[2]):02d}-{int(m[1]):02d}", plain, count=1)
+    return re.sub("[ T]+", "T", plain, count=1)
 
 
 def _clock_s(word: str) -> float:

@@ -255,6 +255,7 @@ def test_a_table_without_names_is_read_by_numbers_of_columns(tmp_path):
         ImportOptions(left=options.left, right=options.right, layout=Layout(columns=roles))
     )
     same(found.right, walk()["right"])
+    assert "column 1, in s" in found.notes["assumptions"]
 
 
 def test_dates_and_clock_times_are_times(tmp_path):
@@ -271,7 +272,10 @@ def test_dates_and_clock_times_are_times(tmp_path):
         ]
         return table(["time", "ax", "ay", "az", "gx", "gy", "gz"], rows)
 
-    for write in (dated, clock):
+    def day_first(series):
+        return dated(series).replace("2024-05-01", "1.5.2024")
+
+    for write in (dated, clock, day_first):
         same(import_recording(files(tmp_path, walk(), write)).left, walk()["left"])
 
 

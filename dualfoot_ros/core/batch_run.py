@@ -12,7 +12,7 @@ from .results.events import Event, EventKind
 from .results.row_store import RowStore
 from .results.trajectory import Trajectory
 from .results.update import Update
-from .samples.pair_gate import good_values, next_irregular, regular_samples
+from .samples.pair_gate import good_values, in_range, next_irregular, regular_samples
 from .samples.series import BoolArray, FloatArray, ImuPair, ImuSeries, IntArray, stack_pairs
 from .session import Session
 
@@ -67,9 +67,16 @@ class BatchRun:
         if self._stops is None:
             longest_ns = session.holes.longest_ns
             spans = [slice(at, at + STRETCH) for at in range(0, len(self._stamps), STRETCH)]
-            good = np.concatenate([good_values(self._values(span)) for span in spans])
+            good = np.concatenate([self._good(span) for span in spans])
             self._stops = next_irregular(regular_samples(self._stamps, good, longest_ns))
         return int(self._stops[k])
+
+    def _good(self, span: slice) -> BoolArray:
+        """Return (K,) which pairs have values that the gate takes: nearly always all."""
+        parts = [(each.specific_force[span], each.angular_rate[span]) for each in self._series]
+        if all(in_range(values) for part in parts for values in part):
+            return np.ones(len(parts[0][0]), dtype=bool)
+        return good_values(self._values(span))
 
     def _values(self, span: slice) -> FloatArray:
         """Return the values (K, 12) of some pairs."""

@@ -109,10 +109,13 @@ def regular_samples(stamps: IntArray, good: BoolArray, longest_ns: int = MAX_GAP
     return regular
 
 
+def in_range(values: FloatArray) -> bool:
+    """Return whether all of the values, of whatever shape, are in range and none is nan."""
+    return bool(np.all(np.abs(values) < LIMIT))
+
+
 def good_values(values: FloatArray) -> BoolArray:
     """Return (N,) bool: values (N, 12) in range, but for a foot that is not there."""
-    if np.all(np.abs(values) < LIMIT):  # seldom not: so each is looked at in its row only then
-        return np.ones(len(values), dtype=bool)
     feet = values[:, :6], values[:, 6:]
     there = [np.all(np.abs(foot) < LIMIT, axis=1) for foot in feet]
     away = [np.isnan(foot).all(axis=1) for foot in feet]

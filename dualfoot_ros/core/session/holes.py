@@ -15,24 +15,23 @@ LONGEST_STEP = 1.7  # of the nominal interval: longer ones are holes
 
 
 class Holes:
-    """Gets a walk over what is missing; ``step`` runs one epoch of it."""
+    """Gets a walk over what is missing; ``step`` runs one epoch of it.
+
+    Attributes
+    ----------
+    period_ns : nominal interval of the samples
+    longest_ns : interval between two samples above which some are missing between them
+    filled_ns : interval that remains to be run after `fill`
+    """
 
     def __init__(
         self, walk: WalkState, step: Callable[[int, float, FloatArray], tuple[FloatArray, Found]]
     ) -> None:
         self._walk, self._step = walk, step
         self._rate_hz = walk.space.rate_hz
+        self.period_ns = round(1e9 / self._rate_hz)
+        self.longest_ns = round(LONGEST_STEP * 1e9 / self._rate_hz)
         self.filled_ns = 0
-
-    @property
-    def period_ns(self) -> int:
-        """Nominal interval of the samples, ns."""
-        return round(1e9 / self._rate_hz)
-
-    @property
-    def longest_ns(self) -> int:
-        """Interval between two samples above which some are missing between them, ns."""
-        return round(LONGEST_STEP * 1e9 / self._rate_hz)
 
     def fill(self, stamp: int, dt_ns: int, values: FloatArray) -> Found:
         """Run epochs on the line between the sample before and that of ``stamp`` (12,).

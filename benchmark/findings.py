@@ -28,6 +28,7 @@ from dualfoot_ros.inspection import (
     Finding,
     coupled_findings,
     findings_of,
+    tracker_findings,
     unconstrained_config,
     walk_findings,
 )
@@ -63,7 +64,8 @@ def all_findings(recording: Recording) -> list[Finding]:
         return found
     try:
         found += walk_findings(track(recording, unconstrained_config()))
-        found += coupled_findings(track(recording))
+        coupled = track(recording)
+        found += [*coupled_findings(coupled), *tracker_findings(coupled)]
     except DualFootError:
         pass
     return found

@@ -26,6 +26,7 @@ import numpy as np
 
 from ..core import DEGREE, STANDARD_GRAVITY, FloatArray, ImuSeries
 from .quiet_spans import Spans, quiet_spans
+from .turns_in_a_row import one_after_another, products, quaternions_of, turned
 
 LEAST_SPANS = 4
 RESIDUAL_STD = 0.03  # of a cycle, for weights and uncertainties
@@ -202,39 +203,24 @@ def _at(spans: Spans, candidate: FloatArray, x: FloatArray) -> FloatArray:
 
 def _residuals(spans: Spans, matrices: FloatArray, biases: FloatArray) -> FloatArray:
     """Return the residuals (P, K, 6) with rates M w - b, for (P, 3, 3) M and (P, 3) b."""
-    rates = np.einsum("pij,lkj->lpki", matrices, spans.rate)
-    rates -= biases[:, np.newaxis, :] * spans.within[:, np.newaxis]
-    halves = _rotations(0.5 * spans.step_s * rates)
-    attitude = np.broadcast_to(np.eye(3), (len(matrices), len(spans), 3, 3))
-    velocity = np.zeros((len(matrices), len(spans), 3, 1))
-    for half, force in zip(halves, spans.force[..., np.newaxis] * spans.step_s, strict=True):
-        middle = attitude @ half
-        velocity += middle @ force
-        attitude = middle @ half
-    duration = spans.duration_s[:, np.newaxis]
-    gravity = np.einsum("pkji,kj->pki", attitude, spans.first)
-    return np.concatenate(
+    rates = np.einsum("pij,lkj->ilpk", matrices, spans.rate)
+    rates -= biases.T[:, np.newaxis, :, np.newaxis] * spans.within[:, np.newaxis, :, 0]
+    halves = quaternions_of(0.5 * spans.step_s * rates)
+    forces = np.moveaxis(spans.force * spans.step_s, -1, 0)[:, :, np.newaxis]
+    attitude, velocity = one_after_another(products(halves, halves), turned(halves, forces))
+    duration = spans.duration_s
+    first, last = (np.moveaxis(g, -1, 0)[:, np.newaxis] for g in (spans.first, spans.last))
+    there = turned(attitude * [[[-1.0]], [[-1.0]], [[-1.0]], [[1.0]]], first)
+    found = np.concatenate(
         [
-            (velocity[..., 0] - spans.first * duration) / (STANDARD_GRAVITY * duration),
-            (gravity - spans.last) / STANDARD_GRAVITY,
-        ],
-        axis=-1,
+            (velocity - first * duration) / (STANDARD_GRAVITY * duration),
+            (there - last) / STANDARD_GRAVITY,
+        ]
     )
+    return np.moveaxis(found, 0, -1)
 
 
 def _median(residuals: FloatArray) -> FloatArray:
     """Return the median over the cycles of the residuals' size, (P,)."""
     sizes: FloatArray = np.median(np.linalg.norm(residuals, axis=-1), axis=-1)
     return sizes
-
-
-def _rotations(vectors: FloatArray) -> FloatArray:
-    """Return the rotation matrices (..., 3, 3) of rotation vectors (..., 3), by Rodrigues."""
-    angle = np.linalg.norm(vectors, axis=-1)[..., np.newaxis, np.newaxis]
-    cross = np.zeros((*vectors.shape, 3))
-    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
-    cross[..., 2, 1], cross[..., 0, 2], cross[..., 1, 0] = x, y, z
-    cross[..., 1, 2], cross[..., 2, 0], cross[..., 0, 1] = -x, -y, -z
-    sine, half_sine = np.sinc(angle / np.pi), np.sinc(0.5 * angle / np.pi)
-    turned: FloatArray = np.eye(3) + sine * cross + 0.5 * half_sine**2 * (cross @ cross)
-    return turned

@@ -250,8 +250,10 @@ def fed_live(used: DualFootTracker, pair, late_ns: int = 0, found=None):
     return found
 
 
-@pytest.mark.parametrize("late_ns", [-3 * SECOND, 0, SECOND // 20])
-@pytest.mark.parametrize("method", ["zupt", "spacing_vector"])
+@pytest.mark.parametrize(
+    ("method", "late_ns"),
+    [("zupt", -3 * SECOND), ("spacing_vector", 0), ("spacing_vector", SECOND // 20)],
+)
 def test_live_gives_the_same_bits_as_batch_however_early_the_field_comes_or_a_little_late(
     method, late_ns
 ):
@@ -327,7 +329,7 @@ def test_one_stamp_from_the_far_future_costs_no_stance_live_and_in_batch(where):
     same_bits(fed_live(used, [each[k:] for each in pair], found=first), plain)
 
 
-@pytest.mark.parametrize("late_ns", [-3 * SECOND, 0, SECOND // 20])
+@pytest.mark.parametrize("late_ns", [-3 * SECOND, SECOND // 20])
 def test_a_recording_that_begins_anew_is_tracked_as_the_first_time(late_ns):
     """The logs have the field of the first round under the same stamps, and later ones.
 

@@ -9,7 +9,7 @@ from dualfoot_ros.cli.main import main
 from dualfoot_ros.core import PressureSeries
 from dualfoot_ros.evaluation import RunOptions, run
 from dualfoot_ros.inspection import FindingKind, check_usable, mend_clocks
-from dualfoot_ros.recording import Recording, RecordingError, write_bag
+from dualfoot_ros.recording import Recording, RecordingError, read_bag, write_bag
 from dualfoot_ros.simulation import WalkConfig, simulate
 
 BOTH = ("left", "right")
@@ -167,6 +167,22 @@ def test_a_clock_that_is_set_again_and_again_is_not_mended(walked):
     for at_s in range(10, 40, 2):
         recording = stepped(recording, -3600.0, at_s=at_s)
     assert mend_clocks(recording) is recording
+
+
+def logged_by_the_clock_that_is_set(channels):
+    """Return log times that are the stamps, and the channels, in the order of the rows."""
+    stamps = [channel.stamp_ns for channel in channels]
+    which = np.concatenate([np.full(len(s), k) for k, s in enumerate(stamps)])
+    share = np.concatenate([np.arange(len(s)) / len(s) for s in stamps])
+    order = np.argsort(share, kind="stable")
+    return np.concatenate(stamps)[order], which[order]
+
+
+@pytest.mark.parametrize("by_s", [-3600.0, -1.0])
+def test_the_log_times_of_the_bag_may_be_of_the_same_clock(walked, tmp_path, monkeypatch, by_s):
+    monkeypatch.setattr("dualfoot_ros.recording.write._in_order", logged_by_the_clock_that_is_set)
+    bag = write_bag(tmp_path / "bag", stepped(walked, by_s))
+    assert_same_time(mend_clocks(read_bag(bag)), walked)
 
 
 def test_info_and_evaluate_say_the_same_of_a_bag(walked, tmp_path, capsys):

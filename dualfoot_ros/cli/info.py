@@ -57,11 +57,11 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _inspect(args: argparse.Namespace) -> Contents:
-    from ..inspection import findings_of, qualities_of
+    from ..inspection import findings_of, mend_clocks, qualities_of
     from ..recording import list_topics
     from .info_lines import Contents
 
-    recording = load_bag(args.bag, args)
+    recording = mend_clocks(load_bag(args.bag, args))
     qualities = qualities_of(recording)
     contents = Contents(
         recording,

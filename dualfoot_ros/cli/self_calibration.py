@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..inspection import require_usable
+from ..inspection import mend_clocks, require_usable
 from .arguments import recording_name
 from .printing import progress
 
@@ -34,6 +34,7 @@ def self_calibration(
     """
     from ..calibration import calibrate_walks, weakest
 
+    recording = mend_clocks(recording)
     require_usable(recording, allow_not_finite=args.allow_nan)
     with progress("calibrating") as update:
         result = calibrate_walks(

@@ -77,6 +77,7 @@ from .samples.mounting import (
     axes_matrix,
     dot,
 )
+from .samples.pair_gate import LOOP_NS
 from .samples.series import (
     BoolArray,
     FieldSeries,
@@ -97,6 +98,7 @@ __all__ = [
     "FORWARD_LEFT_UP",
     "GROUPS",
     "IDENTITY",
+    "LOOP_NS",
     "LOST_HEADING_STD",
     "METHODS",
     "MID_STANCE",

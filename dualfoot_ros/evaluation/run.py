@@ -22,6 +22,7 @@ from ..inspection import (
     FindingKind,
     check_usable,
     coupled_findings,
+    mend_clocks,
     tracker_findings,
     unconstrained_config,
     walk_findings,
@@ -93,7 +94,7 @@ def run(
     """
     options = options or RunOptions()
     chosen = choose_config(config, options)
-    recording = choose_feet(recording, options.feet)
+    recording = choose_feet(mend_clocks(recording), options.feet)
     findings = check_usable(recording, allow_not_finite=options.allow_not_finite)
     if options.feet != "both":
         findings = tuple(f for f in findings if f.kind is not FindingKind.MISSING)

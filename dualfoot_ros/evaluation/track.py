@@ -105,7 +105,15 @@ def pair_samples(recording: Recording) -> PairedSamples:
             f"the feet share no time (overlap {report.overlap_s:.1f} s), so there are no pairs of "
             "samples; were both recorded together, and are their clocks synchronised?"
         )
-    return PairedSamples(left, right, recording.pressure, fields_of(*measured), report.counters)
+    counters = {**report.counters, **_clocks_set(recording)}
+    return PairedSamples(left, right, recording.pressure, fields_of(*measured), counters)
+
+
+def _clocks_set(recording: Recording) -> dict[str, int]:
+    """Return the counters of the clocks that were set back, as the streaming aligner has them."""
+    steps = [step.feet for step in recording.clock_steps]
+    alone = {f"{foot}_clock_set": steps.count((foot,)) for foot in FEET}
+    return {**alone, "restarts": len(steps) - sum(alone.values())}
 
 
 def track_samples(

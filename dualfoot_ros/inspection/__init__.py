@@ -24,6 +24,7 @@ from .findings import (
 )
 from .gyro_agreement import GyroAgreement, RateError, gyro_agreement
 from .lateral_spacing import SideBySide, side_by_side, straight
+from .mended_clocks import mend_clocks
 from .pressure_facts import PressureFacts, pressure_facts, wearer_words
 from .quality import Quality, quality_of
 from .stance_statistics import StanceStatistics, stance_statistics, unconstrained_config
@@ -68,6 +69,7 @@ __all__ = [
     "held_at_rest",
     "lost_foot_findings",
     "lost_heading",
+    "mend_clocks",
     "pressure_facts",
     "qualities_of",
     "quality_of",

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from .log_times import read_arrivals
     from .open_bag import METADATA, is_bag, list_topics
     from .read import read_bag, read_logged
-    from .recording import Correction, Recording
+    from .recording import ClockStep, Correction, Recording
     from .reference import Reference
     from .snapshot_file import read_snapshot, write_snapshot
     from .storage.bag_source import TopicInfo
@@ -28,6 +28,7 @@ __all__ = [
     "METADATA",
     "PRESSURE_TOPICS",
     "STORAGES",
+    "ClockStep",
     "Correction",
     "OdometrySeries",
     "Recording",

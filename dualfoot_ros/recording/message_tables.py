@@ -10,6 +10,7 @@ import numpy as np
 from ..core import FloatArray, IntArray, RecordingError
 from . import cdr
 from .storage.bag_source import Block
+from .storage.log_order import recorded_order
 from .topics import FIELD_TYPE, IMU_TYPE, PRESSURE_TYPE, TRUTH_TYPE, VECTOR_TYPE
 
 IMU_DOUBLES = 37  # orientation, its covariance, rate, covariance, specific force, covariance
@@ -103,7 +104,7 @@ class TableBuilder:
         self._values.clear()
         if self._sorted or bool((np.diff(logged) >= 0).all() and (np.diff(files) >= 0).all()):
             return Table(stamps, values, self._texts, logged)
-        order = np.lexsort((logged, files))
+        order = recorded_order(logged, files)
         return Table(stamps[order], values[order], self._texts, logged[order])
 
     def _one_by_one(self, block: Block) -> tuple[IntArray, FloatArray, list[str]]:

@@ -19,6 +19,26 @@ class Correction(Protocol):
 
 
 @dataclass(frozen=True)
+class ClockStep:
+    """A clock that was set back during the recording.
+
+    Attributes
+    ----------
+    feet : whose stamps stepped back, "left", "right" or both
+    at_ns : the last stamp before, as the recording has it now
+    by_ns : how far it was set back
+    since_start_ns : from the first stamp of the recording to ``at_ns``
+    truth_cut : whether the truth made another step, so that it ends there
+    """
+
+    feet: tuple[str, ...]
+    at_ns: int
+    by_ns: int
+    since_start_ns: int
+    truth_cut: bool = False
+
+
+@dataclass(frozen=True)
 class Recording:
     """The samples of both feet, and the truth and reference that came with them.
 
@@ -33,6 +53,7 @@ class Recording:
     topics : the names of the topics that were read
     imu_topics : every topic of type sensor_msgs/Imu that the bag has
     cut : what of the bag could not be read, as a sentence; empty for a whole one
+    clock_steps : where a clock was set back and the stamps after it have been moved forward
     """
 
     left: ImuSeries | None = None
@@ -47,6 +68,7 @@ class Recording:
     topics: Topics = field(default_factory=Topics)
     imu_topics: tuple[str, ...] = ()
     cut: str = ""
+    clock_steps: tuple[ClockStep, ...] = ()
 
     def imu(self, foot: str) -> ImuSeries | None:
         """Return the samples of ``foot``, "left" or "right"."""

@@ -43,6 +43,12 @@ def clipping(series):
     return series
 
 
+def set_back(series):
+    stamps = series.stamp_ns.copy()
+    stamps[700:] -= 3_600_000_000_000
+    return replace(series, stamp_ns=stamps)
+
+
 def with_field(series, tesla):
     return replace(series, magnetic_field=np.full((len(series), 3), tesla))
 
@@ -78,6 +84,7 @@ RECORDINGS = {
     "empty": lambda: Recording(moving(1)[:1], moving(2)),
     "nan": lambda: Recording(with_nan(moving(1)), moving(2)),
     "two in one": lambda: Recording(again(moving(1)), moving(2)),
+    "set back": lambda: Recording(set_back(moving(1)), set_back(moving(2))),
     "g": lambda: Recording(scaled(moving(1), 1 / GRAVITY), moving(2)),
     "no gravity": lambda: Recording(scaled(moving(1), 0.01), moving(2)),
     "deg/s": lambda: Recording(moving(1), scaled(moving(2), rate=180 / np.pi)),

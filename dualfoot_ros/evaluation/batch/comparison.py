@@ -13,7 +13,7 @@ import numpy as np
 
 from ...core import EvaluationError, FloatArray, IntArray, swing_passings
 from ...core.compiler import compiled
-from ...inspection import Finding, check_usable
+from ...inspection import Finding, check_usable, mend_clocks
 from ...recording import Correction, Recording, find_topics, read_bag
 from ..evaluate import Evaluation
 from ..frames.gauge import Options, Truth
@@ -157,7 +157,7 @@ def _read(
     bag: str, names: tuple[str | None, str | None], allow_nan: bool, repeat: int
 ) -> tuple[Recording, tuple[Finding, ...]]:
     """Read and check a bag; a process that runs several methods in a row on it does so once."""
-    recording = read_bag(Path(bag), topics=find_topics(bag, *names).topics)
+    recording = mend_clocks(read_bag(Path(bag), topics=find_topics(bag, *names).topics))
     findings = check_usable(recording, allow_not_finite=allow_nan)
     return repeated(recording, repeat), findings
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core import FEET, ImuSeries
-from ...recording import Recording, Topics
+from ...recording import ClockStep, Recording, Topics
 from ..quality import Quality
 from .finding import Finding, Severity
 from .finding_kinds import FindingKind
@@ -18,6 +18,10 @@ ALONE_S = 3.0  # at the start or the end of a recording
 SAME_SHARE = 0.5  # of the samples of a foot that the other one has too, to the last digit
 MIXER = np.uint64(0x9E3779B97F4A7C15)  # odd: multiplication by it loses no bit
 LEAST_SAME = 20
+LET_CLOCKS_GO = (
+    "let no clock be set during a recording, or stamp by a clock that is not set; if these are "
+    "two recordings, cut the bag there"
+)
 
 
 def find_missing(recording: Recording) -> Iterator[Finding]:
@@ -49,6 +53,28 @@ def find_cut(recording: Recording) -> Iterator[Finding]:
             f"the recording is not whole: {recording.cut}",
             "copy it again from where it was recorded, if it is whole there",
         )
+
+
+def find_clock_steps(recording: Recording) -> Iterator[Finding]:
+    """Yield a finding for each step of a clock that was taken off the stamps."""
+    for step in recording.clock_steps:
+        which = "both feet" if len(step.feet) == len(FEET) else f"the {step.feet[0]} foot"
+        yield Finding(
+            FindingKind.CLOCK_SET,
+            Severity.WARNING,
+            f"the clock of {which} was set back by {step.by_ns * 1e-9:.3f} s, "
+            f"{step.since_start_ns * 1e-9:.1f} s after the first sample (at "
+            f"{step.at_ns * 1e-9:.3f} s), and the samples go on, so the stamps after it are moved "
+            f"to follow those before{_truth_words(step)}",
+            LET_CLOCKS_GO,
+            "both" if len(step.feet) == len(FEET) else step.feet[0],
+        )
+
+
+def _truth_words(step: ClockStep) -> str:
+    if not step.truth_cut:
+        return ""
+    return "; the truth steps otherwise, and there are no errors after its step"
 
 
 def _topic_advice(recording: Recording) -> str:

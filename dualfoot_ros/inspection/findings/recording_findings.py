@@ -21,6 +21,7 @@ from .gyro_findings import (
     find_rate_scale,
 )
 from .pair_findings import (
+    find_clock_steps,
     find_cut,
     find_different_rates,
     find_missing,
@@ -113,6 +114,7 @@ def findings_of(
     yield from find_missing(recording)
     yield from find_same_samples(recording)
     yield from find_cut(recording)
+    yield from find_clock_steps(recording)
     if qualities is None:
         qualities = qualities_of(recording)
     usable = {foot: q for foot, q in qualities.items() if q.usable >= LEAST_SAMPLES}

@@ -34,7 +34,8 @@ class Block(NamedTuple):
 
     ``log_ns`` (K,) are the times they were logged at; ``rows`` is the CDR bytes, (K, length) where
     all are of one length.  Blocks of one ``file`` are to be brought into the order of their log
-    times; where it is None, their order is that of the recording.
+    times (:func:`.log_order.recorded_order`); where it is None, their order is that of the
+    recording.
     """
 
     topic: str

@@ -1,7 +1,9 @@
-"""Clocks that were set back during a walk: their stamps are moved, so that it is one recording.
+"""Clocks that were set during a walk: their stamps are moved, so that it is one recording.
 
-The clock after a step is that before it, set back by an unknown amount.  The samples themselves
-tell it: one usual interval lies between the last one before and the first one after the step.
+The clock after a step is that before it, set by an unknown amount.  The samples themselves tell
+it: one usual interval lies between the last one before and the first one after the step.  A step
+ahead of both feet is a hole like any other, and one of a single foot is one if its samples were
+lost, but not if it ends with the other foot as it begins only when nothing was lost.
 """
 
 from __future__ import annotations
@@ -22,11 +24,12 @@ MOST = 10  # steps of a recording
 
 
 @dataclass(frozen=True)
-class _Back:
-    """A step back of the stamps of one foot.
+class _Step:
+    """A step of the stamps of one foot.
 
     ``index`` is the first sample after it, ``newest_ns`` the stamp before, and ``by_ns`` how far
-    the clock was set back if no sample is missing; ``usual_ns`` is the interval of the samples.
+    the clock was set back (negative: ahead) if no sample is missing; ``usual_ns`` is the interval
+    of the samples.
     """
 
     index: int
@@ -36,20 +39,21 @@ class _Back:
 
 
 def mend_clocks(recording: Recording) -> Recording:
-    """Return the recording with the stamps after each step back of a clock moved forward.
+    """Return the recording with the stamps after each step of a clock moved to follow on.
 
     So it is done where both feet step back at one place by the same amount, and go on for good:
     both are moved alike, and so are truth and air pressure that make the same step.  A foot that
     steps alone is moved where it ends with the other one as it begins.  Stamps that come back to
     the start are those of another recording.  Where one of the steps is none of these, the
-    recording is returned as it is, to be refused, and so is one without any.
+    recording is returned as it is, to be refused, and so is one without any.  One step ahead of
+    one foot alone is moved as well.
     """
     mended = recording
     for _ in range(MOST + 1):
         steps = _steps_back(mended)
         sure = {foot: step for foot, step in steps.items() if step is not None}
         if not steps:
-            return mended
+            return _set_ahead(mended)
         if len(sure) < len(steps):
             return recording
         by_ns = _by_both(sure) if len(sure) == len(FEET) else _by_one(mended, sure)
@@ -59,7 +63,28 @@ def mend_clocks(recording: Recording) -> Recording:
     return recording
 
 
-def _steps_back(recording: Recording) -> dict[str, _Back | None]:
+def _set_ahead(recording: Recording) -> Recording:
+    """Return the recording with one step ahead of one foot's clock taken off, if there is one."""
+    for foot in FEET:
+        series, other = recording.imu(foot), recording.imu(_other(foot))
+        if not series or not other or len(series) <= REGULAR:
+            continue
+        steps = np.diff(series.stamp_ns)
+        index, usual_ns = int(np.argmax(steps)), int(np.median(steps))
+        ahead = _Step(
+            index + 1, int(series.stamp_ns[index]), usual_ns - int(steps[index]), usual_ns
+        )
+        by_ns = _by_one(recording, {foot: ahead}) if (steps >= 0).all() else None
+        if by_ns is not None:
+            return _moved(recording, {foot: ahead}, by_ns)
+    return recording
+
+
+def _other(foot: str) -> str:
+    return next(each for each in FEET if each != foot)
+
+
+def _steps_back(recording: Recording) -> dict[str, _Step | None]:
     """Return the first step of each foot that goes back for good, None for one that is unsure."""
     steps = {}
     for foot in FEET:
@@ -72,7 +97,7 @@ def _steps_back(recording: Recording) -> dict[str, _Back | None]:
     return steps
 
 
-def _describe(series: ImuSeries, newest_ns: int, restart_at: int) -> _Back | None:
+def _describe(series: ImuSeries, newest_ns: int, restart_at: int) -> _Step | None:
     """Return the step from ``newest_ns`` back, seen at ``restart_at``; None where it is unsure."""
     stamps = series.stamp_ns
     index = int(np.flatnonzero(stamps[:restart_at] == newest_ns)[-1]) + 1
@@ -82,10 +107,10 @@ def _describe(series: ImuSeries, newest_ns: int, restart_at: int) -> _Back | Non
     if anew or len(before) < REGULAR or not whole.all():
         return None
     usual_ns = int(np.median(before))
-    return _Back(index, newest_ns, newest_ns + usual_ns - int(stamps[index]), usual_ns)
+    return _Step(index, newest_ns, newest_ns + usual_ns - int(stamps[index]), usual_ns)
 
 
-def _by_both(steps: Mapping[str, _Back]) -> int | None:
+def _by_both(steps: Mapping[str, _Step]) -> int | None:
     """Return by how much the clock of both feet was set back, None where it was not one.
 
     A foot that lost samples there seems to step by less.
@@ -96,13 +121,13 @@ def _by_both(steps: Mapping[str, _Back]) -> int | None:
     return max(left.by_ns, right.by_ns) if together and alike else None
 
 
-def _by_one(recording: Recording, steps: Mapping[str, _Back]) -> int | None:
-    """Return by how much the clock of one foot was set back, None where it is not sure."""
+def _by_one(recording: Recording, steps: Mapping[str, _Step]) -> int | None:
+    """Return by how much the clock of one foot was set, None where it is not sure."""
     ((foot, step),) = steps.items()
-    other = recording.imu(next(each for each in FEET if each != foot))
+    other = recording.imu(_other(foot))
     own = recording.imu(foot)
     assert own is not None
-    if step.by_ns <= AlignerConfig().max_delay_ns:
+    if abs(step.by_ns) <= AlignerConfig().max_delay_ns:
         return None
     if not other:
         return step.by_ns
@@ -111,7 +136,7 @@ def _by_one(recording: Recording, steps: Mapping[str, _Back]) -> int | None:
     return step.by_ns if abs(ends_ns - begins_ns) <= LOST * step.usual_ns else None
 
 
-def _moved(recording: Recording, steps: Mapping[str, _Back], by_ns: int) -> Recording:
+def _moved(recording: Recording, steps: Mapping[str, _Step], by_ns: int) -> Recording:
     """Return the recording with everything that makes these steps moved by ``by_ns``."""
     at_ns = max(step.newest_ns for step in steps.values())
     feet = {}
@@ -158,7 +183,7 @@ def _in_step(stamp_ns: IntArray, at_ns: int, by_ns: int) -> IntArray:
         return stamp_ns
     usual_ns = int(np.median(steps))
     slack_ns = max(ALIKE_NS, 2 * usual_ns)
-    alike = (steps < 0) & (np.abs(steps + by_ns - usual_ns) <= slack_ns)
+    alike = ((steps < 0) == (by_ns > 0)) & (np.abs(steps + by_ns - usual_ns) <= slack_ns)
     near = np.abs(stamp_ns[:-1] - at_ns) <= slack_ns + AlignerConfig().max_delay_ns
     found = np.flatnonzero(alike & near)
     return _later(stamp_ns, int(found[0]) + 1, by_ns) if len(found) else stamp_ns

@@ -20,13 +20,13 @@ class Correction(Protocol):
 
 @dataclass(frozen=True)
 class ClockStep:
-    """A clock that was set back during the recording.
+    """A clock that was set during the recording.
 
     Attributes
     ----------
-    feet : whose stamps stepped back, "left", "right" or both
+    feet : whose stamps stepped, "left", "right" or both
     at_ns : the last stamp before, as the recording has it now
-    by_ns : how far it was set back
+    by_ns : how far it was set back; negative: ahead
     since_start_ns : from the first stamp of the recording to ``at_ns``
     truth_cut : whether the truth made another step, so that it ends there
     """
@@ -53,7 +53,7 @@ class Recording:
     topics : the names of the topics that were read
     imu_topics : every topic of type sensor_msgs/Imu that the bag has
     cut : what of the bag could not be read, as a sentence; empty for a whole one
-    clock_steps : where a clock was set back and the stamps after it have been moved forward
+    clock_steps : where a clock was set and the stamps after it have been moved to follow on
     """
 
     left: ImuSeries | None = None

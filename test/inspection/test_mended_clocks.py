@@ -70,6 +70,27 @@ def test_a_clock_of_both_feet_that_is_set_back_costs_no_walk(walked, by_s):
     assert result.trajectory.counters["sync.restarts"] == 1
 
 
+@pytest.mark.parametrize("by_s", [1.0, 3600.0, 30 * 86400.0])
+@pytest.mark.parametrize("foot", BOTH)
+def test_a_clock_of_one_foot_that_is_set_ahead_is_mended_and_said(walked, foot, by_s):
+    set_ahead = stepped(walked, by_s, [foot])
+    assert_same_time(mend_clocks(set_ahead), walked)
+    (found,) = set_clocks(check_usable(mend_clocks(set_ahead)))
+    assert f"the {foot} foot was set ahead by {by_s:.3f} s" in found.text
+
+
+def test_samples_of_a_second_that_one_foot_lost_are_a_hole(walked):
+    kept = np.r_[0:1200, 1260 : len(walked.left)]
+    lossy = replace(walked, left=walked.left[kept])
+    assert mend_clocks(lossy) is lossy
+
+
+def test_a_foot_that_ends_early_after_a_hole_is_left_as_it_is(walked):
+    kept = np.r_[0:1200, 1260 : len(walked.left) - 300]
+    lossy = replace(walked, left=walked.left[kept])
+    assert mend_clocks(lossy) is lossy
+
+
 def test_the_offset_of_the_feet_stays(walked):
     wanted = replace(walked, right=walked.right[2:])
     right = set_by(wanted.right, -3600.0, at_s=AT_S - 2 * INTERVAL_NS * 1e-9)

@@ -62,7 +62,8 @@ def find_clock_steps(recording: Recording) -> Iterator[Finding]:
         yield Finding(
             FindingKind.CLOCK_SET,
             Severity.WARNING,
-            f"the clock of {which} was set back by {step.by_ns * 1e-9:.3f} s, "
+            f"the clock of {which} was set {'back' if step.by_ns > 0 else 'ahead'} by "
+            f"{abs(step.by_ns) * 1e-9:.3f} s, "
             f"{step.since_start_ns * 1e-9:.1f} s after the first sample (at "
             f"{step.at_ns * 1e-9:.3f} s), and the samples go on, so the stamps after it are moved "
             f"to follow those before{_truth_words(step)}",

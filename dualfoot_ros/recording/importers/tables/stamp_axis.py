@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ....core import FloatArray, IntArray, RecordingError
+from ..sample_counter import bits_of, counts_samples, unwrapped
 from .assumptions import Assumption, Origin
 from .unit_words import SAMPLES, TIME_UNITS
 
@@ -178,7 +179,7 @@ def _to_ns(source: TimeSource, values: FloatArray, size: float) -> IntArray:
     if source.exact is not None:
         return (source.exact * round(size * 1e9)).astype(np.int64)
     if source.wrap_bits and np.all(np.abs(values) < 2.0**source.wrap_bits):
-        counts = _unwrapped(np.rint(values), source.wrap_bits)
+        counts = unwrapped(values, source.wrap_bits)
         return counts * np.int64(round(size * 1e9))
     beyond = np.flatnonzero(~(np.abs(values * size) < float(2**33)))
     if len(beyond):
@@ -191,16 +192,6 @@ def _to_ns(source: TimeSource, values: FloatArray, size: float) -> IntArray:
     whole = np.floor(values * size)
     rest = np.where(np.isfinite(values), values * size - whole, 0.0)
     return whole.astype(np.int64) * 1_000_000_000 + np.rint(rest * 1e9).astype(np.int64)
-
-
-def _unwrapped(counts: FloatArray, bits: int) -> IntArray:
-    wrap = 1 << bits
-    unsigned = counts.astype(np.int64) % wrap
-    if not len(unsigned):
-        return unsigned
-    steps = (np.diff(unsigned) + wrap // 2) % wrap - wrap // 2
-    result: IntArray = unsigned[0] + np.concatenate(([0], np.cumsum(steps)))
-    return result
 
 
 def _is_rounded(stamps: IntArray) -> bool:
@@ -255,23 +246,9 @@ def _from_counts(source: TimeSource) -> Stamps:
 def _counts(source: TimeSource) -> tuple[IntArray, str]:
     """Return the count of each sample: its counter without wraps, or the number of its row."""
     values = source.values if source.unit == SAMPLES else source.counter
-    if values is not None and np.isfinite(values).all() and _is_counter(values):
-        return _unwrapped(values, _bits(values)), "count of the samples"
+    if values is not None and np.isfinite(values).all() and counts_samples(values):
+        return unwrapped(values, bits_of(values)), "count of the samples"
     return np.arange(source.count, dtype=np.int64), "number of the row"
-
-
-def _is_counter(values: FloatArray) -> bool:
-    """Return whether most values are one more than the one before."""
-    whole = np.array_equal(values, np.rint(values)) and bool((values >= 0).all())
-    ones = np.diff(values) == 1.0
-    return whole and len(values) > 1 and float(ones.mean()) > 1.0 - REPEATED
-
-
-def _bits(values: FloatArray) -> int:
-    """Return the bits of a counter: those it needs, where it is seen to wrap, else 62."""
-    wraps = bool((np.diff(values) < 0).any())
-    top = int(values.max())
-    return next((bits for bits in (8, 16, 24, 32) if top < 1 << bits), 62) if wraps else 62
 
 
 def _rebuilt(source: TimeSource, stamps: IntArray) -> Stamps:
@@ -280,7 +257,7 @@ def _rebuilt(source: TimeSource, stamps: IntArray) -> Stamps:
     rounding = float(steps[steps > 0].min()) * 1e-9 if (steps > 0).any() else 0.0
     shared = float((steps == 0).mean())
     counter = source.counter
-    if counter is None or not np.isfinite(counter).all() or not _is_counter(counter):
+    if counter is None or not np.isfinite(counter).all() or not counts_samples(counter):
         if source.rate_hz is not None and source.rate_origin is Origin.OPTION:
             return _from_counts(source)
         raise RecordingError(
@@ -289,7 +266,7 @@ def _rebuilt(source: TimeSource, stamps: IntArray) -> Stamps:
             "spreadsheets do, and there is no counter to rebuild it from; export again, or give "
             "the sampling rate with --rate HZ"
         )
-    counts = _unwrapped(counter, _bits(counter))
+    counts = unwrapped(counter, bits_of(counter))
     rate = source.rate_hz or _rate_of(stamps, counts, rounding, source)
     rebuilt = stamps[0] + np.rint((counts - counts[0]) * (1e9 / rate)).astype(np.int64)
     value = (

@@ -2,8 +2,8 @@
 
 The clock after a step is that before it, set by an unknown amount.  The samples themselves tell
 it: one usual interval lies between the last one before and the first one after the step.  A step
-ahead of both feet is a hole like any other, and one of a single foot is one if its samples were
-lost, but not if it ends with the other foot as it begins only when nothing was lost.
+ahead of both feet is left as a hole.  So is one of a single foot, unless the ends of both feet lie
+as their beginnings do once the step is taken off: then no samples were lost in it.
 """
 
 from __future__ import annotations

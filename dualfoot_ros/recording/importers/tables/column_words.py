@@ -50,6 +50,7 @@ TIMES = (
     *("sampletimefine", "time", "timestamp", "timestamps", "t", "stamp", "timesec", "epoch"),
     *("zeit", "zeitstempel", "tiempo", "temps", "tempo"),
     *("epoc", "elapsed", "seconds", "secs", "millis", "micros", "datetime", "ts", "unix", "clock"),
+    *("uhrzeit", "hora", "heure", "ora", "orario", "date", "datum", "fecha"),
 )
 COUNTERS = (
     *(

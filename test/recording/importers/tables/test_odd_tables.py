@@ -155,3 +155,22 @@ def test_two_axes_of_a_rate_are_not_called_a_rate(tmp_path):
         RecordingError, match=r"no angular rate: it holds the columns 'time \(s\)'"
     ):
         read(write(tmp_path, rows(), names))
+
+
+@pytest.mark.parametrize(
+    ("times", "name", "day", "clock"),
+    [
+        (["Datum", "Uhrzeit"], "", "01.05.2026", "12:00:{:06.3f}"),
+        (["Date", "Time"], "", "2026-05-01", "12:00:{:06.3f}"),
+        (["Fecha", "Hora"], "", "2026-05-01", "12:00:{:06.3f}"),
+        (["Datum"], "01.05.2026 12:00:{:06.3f}", "", ""),
+        (["date"], "2026-05-01T12:00:{:06.3f}", "", ""),
+    ],
+)
+def test_the_time_may_be_a_date_in_one_column_or_two(tmp_path, times, name, day, clock):
+    cells = [
+        [*([name.format(0.01 * k)] if name else [day, clock.format(0.01 * k)]), *row[1:]]
+        for k, row in enumerate(rows())
+    ]
+    found = read(write(tmp_path, cells, names=(*times, *NAMES[1:])))
+    np.testing.assert_array_equal(np.diff(found.stamp_ns), 10_000_000)

@@ -21,6 +21,7 @@ from .table_layout import Layout
 RATE_KEYS = ("rate", "frequency", "fs", "frequenz")
 DAY_FIRST = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})(?=\D)")  # 31.5.2024, always in this order
 CLOCK = re.compile(r"(?:(\d+)[:])?(\d{1,2}):(\d{1,2}(?:[.,]\d+)?)")
+DAY_S = 86400.0
 
 
 @dataclass(frozen=True)
@@ -171,11 +172,14 @@ def rate_in(facts: Mapping[str, str]) -> float | None:
 
 
 def _from_dates(words: Sequence[str], path: Path, name: str) -> tuple[FloatArray, IntArray | None]:
-    """Return the nanoseconds of dates since 1970, or the seconds of clock times since midnight."""
+    """Return the nanoseconds of dates since 1970, or the seconds of clock times since midnight.
+
+    A clock time that begins anew is of the next day.
+    """
     clock = [CLOCK.fullmatch(word) for word in words[:1]]
     try:
         if clock and clock[0]:
-            return np.array([_clock_s(word) for word in words]), None
+            return np.unwrap([_clock_s(word) for word in words], period=DAY_S), None
         plain = [_iso_date(word) for word in words]
         exact = np.array(plain, dtype="datetime64[ns]").astype(np.int64)
     except ValueError:

@@ -174,3 +174,12 @@ def test_the_time_may_be_a_date_in_one_column_or_two(tmp_path, times, name, day,
     ]
     found = read(write(tmp_path, cells, names=(*times, *NAMES[1:])))
     np.testing.assert_array_equal(np.diff(found.stamp_ns), 10_000_000)
+
+
+def test_a_clock_time_goes_on_over_midnight(tmp_path):
+    cells = rows()
+    for k, row in enumerate(cells):
+        hour, rest = divmod((86_399_000 + 10 * k) % 86_400_000, 3_600_000)
+        row[0] = f"{hour:02d}:{rest // 60_000:02d}:{rest % 60_000 / 1000:06.3f}"
+    found = read(write(tmp_path, cells, names=("time", *NAMES[1:])))
+    np.testing.assert_array_equal(np.diff(found.stamp_ns), 10_000_000)

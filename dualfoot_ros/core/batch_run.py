@@ -117,8 +117,8 @@ class BatchRun:
         """Keep an update, and those before it, in the rows of the pairs taken last."""
         updates = (*update.earlier, update)
         for each, row in zip(updates, self._taken[-len(updates) :], strict=False):
-            if each.row is not None:
-                self._single[row], self._kept[row] = each.row, True
+            if each.row is not None:  # a copy: an update holds more than its row
+                self._single[row], self._kept[row] = each.row.copy(), True
                 if len(self._single) == STRETCH:
                     self._put_single()
             self._note(row, each.announced)

@@ -117,6 +117,12 @@ class PairStream:
     def add(self, pair: ImuPair) -> Update:
         """Take one pair; total: bad data gives a counted, named refusal, never an exception."""
         stamp, values = int(pair.stamp_ns), pair.values
+        session = self.undisturbed
+        if session is not None and self.background is None:  # nearly always
+            dt_ns = self.gate.interval(stamp, values, session.holes.longest_ns)
+            if dt_ns:
+                self.counters["pairs"] += 1
+                return self._run(session, stamp, dt_ns, values)
         refused = self.gate.refusal(stamp, values)
         jumped = refused is Jump.CLOCK_SET
         if refused is Jump.BEGINS_ANEW:
@@ -191,19 +197,23 @@ class PairStream:
             dt_ns = holes.filled_ns
         if self.pose is not None:
             before = (*before, *self._apply_pose(session, stamp))
-        row, found = session.step(stamp, dt_ns * 1e-9, values)
-        blocks = session.told()
-        if blocks is None:  # the last guard: nothing that is no number ever leaves
+        return self._run(session, stamp, dt_ns, values, before)
+
+    def _run(
+        self,
+        session: Session,
+        stamp: int,
+        dt_ns: int,
+        values: FloatArray,
+        before: tuple[Event, ...] = (),
+    ) -> Update:
+        """Run one epoch; return its update, with the events ``before`` it."""
+        told, found = session.step(stamp, dt_ns * 1e-9, values)
+        if told is None:  # the last guard: nothing that is no number ever leaves
             self.reset(stamp, Reason.NOT_FINITE)
             return Update(stamp, "aligning", events=self._take_pending())
-        return Update(
-            stamp,
-            session.phase,
-            row=row,
-            events=(*before, *found) if found else before,
-            blocks=blocks,
-            facing=session.facing,
-        )
+        events = (*before, *found) if found else before
+        return Update(stamp, session.phase, None, told, events, session.facing)
 
     def _apply_pose(self, session: Session, stamp: int) -> list[Event]:
         if self.pose is None or not session.can_set_pose():

@@ -9,6 +9,7 @@ import numpy as np
 from ..core import FloatArray, ImuSeries, IntArray
 from ..timing import AlignerConfig, clean, finite_rows
 from .gyro_agreement import GyroAgreement, gyro_agreement
+from .overlaid import Overlaid, find_overlaid
 from .standstill import Stand, first_stand
 from .stuck_values import Stuck, find_stuck
 
@@ -38,6 +39,7 @@ class Quality:
     median_force, high_rate : median of |specific force|; 98 % quantile of |angular rate|
     peak_force, peak_rate : greatest absolute value of an axis
     clipped_force, clipped_rate : samples at the end of the range
+    overlaid : where samples of two times lie between each other, or None
     stuck : axes, or the whole sensor, that repeat their values
     gyro : how the gyro agrees with the accelerometer; None without some steps
     """
@@ -63,6 +65,7 @@ class Quality:
     peak_rate: float
     clipped_force: int
     clipped_rate: int
+    overlaid: Overlaid | None = None
     stuck: tuple[Stuck, ...] = ()
     gyro: GyroAgreement | None = None
 
@@ -104,6 +107,7 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
         peak_rate=float(np.abs(good.angular_rate).max(initial=0.0)),
         clipped_force=clipped(good.specific_force, CLIP_FORCE),
         clipped_rate=clipped(good.angular_rate, CLIP_RATE),
+        overlaid=find_overlaid(good),
         stuck=find_stuck(good),
         gyro=gyro_agreement(good),
     )

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..core import RecordingError
-from .storage.bag_source import BagSource, Block, Chained, TopicInfo, in_blocks
+from .storage.bag_source import BagSource, Block, Chained, TopicInfo
 from .storage.bag_writer import NO_LIBRARY, has_rosbag2_py, has_rosbags
 from .storage.mcap_bag import McapBag
 from .storage.mcap_scan import McapScan
@@ -62,13 +62,10 @@ def opened(path: Path) -> Iterator[BagSource]:
 
 
 def iterate(path: Path, source: BagSource, topics: Collection[str]) -> Iterator[Block]:
-    """Yield every message of ``topics`` in blocks; raise RecordingError where the bag is broken.
-
-    A whole MCAP file comes by its chunks, anything else is gathered message by message.
-    """
+    """Yield all messages of ``topics`` in blocks; raise RecordingError where the bag is broken."""
     count = 0
     try:
-        for block in _blocks(source, topics):
+        for block in source.blocks(topics):
             yield block
             count += len(block.log_ns)
     except GeneratorExit:
@@ -78,12 +75,6 @@ def iterate(path: Path, source: BagSource, topics: Collection[str]) -> Iterator[
             f"bag '{path}' is damaged behind {count} messages ({_reason(error)}); copy it again "
             "from where it was recorded, or record again"
         ) from error
-
-
-def _blocks(source: BagSource, topics: Collection[str]) -> Iterator[Block]:
-    if isinstance(source, (McapBag, RosbagsSource)):
-        return source.blocks(topics)
-    return in_blocks(source.messages(topics))
 
 
 def _open(path: Path) -> BagSource:

@@ -63,6 +63,13 @@ def in_bursts(series):
     return replace(series, stamp_ns=series.stamp_ns[np.arange(len(series)) // 4 * 4])
 
 
+def overlaid(series):
+    """Return samples in the order of a clock that was set back, and that made the stamps."""
+    stamps = series.stamp_ns - np.where(np.arange(len(series)) < 800, 0, 743_000_000)
+    order = np.argsort(stamps)
+    return replace(series[order], stamp_ns=stamps[order])
+
+
 def air(series, pascal):
     return {"both": PressureSeries(series.stamp_ns[::-1], np.full(len(series), pascal))}
 
@@ -102,6 +109,7 @@ RECORDINGS = {
     "another gyro": lambda: Recording(with_rate_of(moving(1), moving(2)), moving(2)),
     "lossy": lambda: Recording(moving(1)[np.arange(1200) % 20 != 7], moving(2)),
     "jitter": lambda: Recording(jittering(moving(1)), moving(2)),
+    "overlaid": lambda: Recording(overlaid(moving(1)), moving(2)),
     "33 Hz": lambda: Recording(moving(1)[::3], moving(2)[::3]),
     "same": lambda: Recording(moving(1), moving(1)),
     "bursts": lambda: Recording(in_bursts(moving(1)), moving(2)),

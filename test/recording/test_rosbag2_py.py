@@ -17,6 +17,7 @@ from dualfoot_ros.recording import read_bag, write_bag
 from dualfoot_ros.recording.storage import bag_writer
 from dualfoot_ros.recording.storage.rosbag2_py_source import Rosbag2PySource
 
+from . import stepped
 from .foreign import STORE, cut
 from .samples import recording
 
@@ -43,12 +44,22 @@ class SequentialReader:
             for c in self.reader.connections
         ]
         custom = dict(self.reader.storage.metadata.custom or {})
-        return SimpleNamespace(topics_with_message_count=topics, custom_data=custom)
+        return SimpleNamespace(
+            topics_with_message_count=topics,
+            custom_data=custom,
+            relative_file_paths=[str(self.file().path)],
+        )
+
+    def file(self):
+        (file,) = getattr(self.reader.storage, "storages", [self.reader.storage])
+        return file
+
+    def set_read_order(self, order):
+        assert order == ("file", False)
+        self.read = self.file().messages_scan  # that of MCAP; sqlite3 has no such order
 
     def set_filter(self, wanted):
-        self.messages = self.reader.messages(
-            [c for c in self.reader.connections if c.topic in wanted.topics]
-        )
+        self.messages = self.read([c for c in self.file().connections if c.topic in wanted.topics])
         self.next = next(self.messages, None)
 
     def has_next(self):
@@ -125,6 +136,8 @@ def stock_ros(monkeypatch):
         StorageOptions=storage_options,
         ConverterOptions=lambda given, wanted: SimpleNamespace(input=given, output=wanted),
         StorageFilter=SimpleNamespace,
+        ReadOrder=lambda sort_by, reverse: (sort_by, reverse),
+        ReadOrderSortBy=SimpleNamespace(File="file"),
         TopicMetadata=SimpleNamespace,
     )
     monkeypatch.setitem(sys.modules, "rosbag2_py", module)
@@ -167,8 +180,13 @@ def test_it_is_this_reader_that_reads(tmp_path, stock_ros):
     path = write_bag(tmp_path / "walk", recording())
     source = Rosbag2PySource(path)
     assert source.topics["/left/imu/data_raw"].messages == len(recording().left)
-    assert {m.topic for m in source.messages(["/left/pressure"])} == {"/left/pressure"}
-    assert list(source.messages(["/none"])) == []
+    assert {b.topic for b in source.blocks(["/left/pressure"])} == {"/left/pressure"}
+    assert list(source.blocks(["/none"])) == []
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_the_order_is_that_of_the_recording_there_too(tmp_path, stock_ros, storage):
+    stepped.assert_in_order(stepped.ros2(tmp_path / "walk", storage))
 
 
 def test_a_cut_off_bag_is_read_as_far_as_it_goes_there_too(tmp_path, stock_ros):

@@ -1,7 +1,8 @@
 """The whole kernel in C, with an entry for Python in front of each of its entries.
 
-An entry takes an array of numpy itself and reads from it where its numbers are, so that a call
-costs no more than one of a function written for Python.
+An entry is a function of Python itself (METH_FASTCALL): it gets objects, and reads from an array
+of numpy where its numbers are.  A call takes 0.1 us.  By way of ctypes, which makes an object of
+each argument first, one with five arrays took 0.8 us: half as much as the epoch it was for.
 """
 
 from __future__ import annotations
@@ -23,6 +24,14 @@ PRELUDE = f"""\
 #include <stdlib.h>
 
 typedef struct {{ double *x; int64_t columns; }} Rows;
+
+extern long long PyLong_AsLongLong(void *);
+extern double PyFloat_AsDouble(void *);
+extern void *PyLong_FromLongLong(long long);
+extern void *PyFloat_FromDouble(double);
+extern void *Py_BuildValue(const char *, ...);
+extern void *PyExc_TypeError;
+extern void PyErr_SetString(void *, const char *);
 
 /* as in Python: towards less, and as numpy has it: zero where there is nothing to divide by */
 static inline int64_t quotient(int64_t a, int64_t b)
@@ -51,6 +60,26 @@ static inline Rows rows(void *array)
 {{
     const int64_t *extents = *(int64_t **)((char *)array + {EXTENTS});
     return (Rows){{data(array), extents[1]}};
+}}
+"""
+
+TAKEN = {
+    Kind.INTEGER: "PyLong_AsLongLong",
+    Kind.REAL: "PyFloat_AsDouble",
+    Kind.INTEGERS: "data",
+    Kind.REALS: "data",
+    Kind.ROWS: "rows",
+}
+MADE = {Kind.INTEGER: "PyLong_FromLongLong", Kind.REAL: "PyFloat_FromDouble"}
+NONE = 'return Py_BuildValue("");'
+ADAPTER = """\
+void *{name}(void *self, void *const *a, int64_t count)
+{{
+    if (count != {count}) {{
+        PyErr_SetString(PyExc_TypeError, "{name} takes {count} arguments");
+        return 0;
+    }}
+    {returned}
 }}
 """
 
@@ -99,19 +128,11 @@ def _result(function: KernelFunction) -> str:
 
 def _adapter(name: str, entry: Entry) -> str:
     """Return the function that Python calls."""
-    given = ", ".join(f"{_foreign(kind)}a{k}" for k, kind in enumerate(entry.parameters))
-    passed = ", ".join(_unpacked(entry.parameters))
-    call = f"{'return ' if entry.result else ''}{name}({passed});"
-    return f"{entry.result or 'void'} {PREFIX}{name}({given})\n{{\n    {call}\n}}\n"
-
-
-def _foreign(kind: Kind) -> str:
-    return "void *" if kind.is_array else f"{kind} "
+    call = f"{name}({', '.join(_unpacked(entry.parameters))})"
+    returned = f"return {MADE[entry.result]}({call});" if entry.result else f"{call};\n    {NONE}"
+    return ADAPTER.format(name=PREFIX + name, count=len(entry.parameters), returned=returned)
 
 
 def _unpacked(kinds: tuple[Kind, ...]) -> Iterator[str]:
     for k, kind in enumerate(kinds):
-        if kind is Kind.ROWS:
-            yield f"rows(a{k})"
-        else:
-            yield f"data(a{k})" if kind.is_array else f"a{k}"
+        yield f"{TAKEN[kind]}(a[{k}])"

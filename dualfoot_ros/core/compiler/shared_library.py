@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from .c_library import DATA, EXTENTS, PREFIX
-from .entries import Entry, Kind
+from .entries import Entry
 
 COMPILER = "cc"
 PROCESSOR = Path("/proc/cpuinfo")  # of Linux alone
@@ -25,8 +25,22 @@ PLAIN = (("-O2",), ("-O1",))
 NO_FUSING = ("-mno-fma", "-mno-fma4", "-mno-avx512f")
 """gcc 12 takes a product and a sum as one operation, of another last bit, whatever it was told."""
 
-ARGUMENTS: dict[Kind, Any] = {Kind.INTEGER: ctypes.c_int64, Kind.REAL: ctypes.c_double}
+FASTCALL = 0x80  # METH_FASTCALL of Python
 Functions = dict[str, Callable[..., Any]]
+
+
+class _Definition(ctypes.Structure):
+    """What Python knows of a function that is written in C: its PyMethodDef."""
+
+    _fields_ = (
+        ("name", ctypes.c_char_p),
+        ("code", ctypes.c_void_p),
+        ("flags", ctypes.c_int),
+        ("text", ctypes.c_char_p),
+    )
+
+
+_kept: list[_Definition] = []  # a function of Python does not own its definition
 
 
 def library_path(directory: Path) -> Path:
@@ -86,8 +100,8 @@ def load_library(path: Path, entries: Mapping[str, Entry]) -> Functions | None:
     if not path.exists() or not _knows_arrays():
         return None
     try:
-        library = ctypes.PyDLL(str(path))  # which keeps the lock of the interpreter
-        return {name: _function(library, name, entry) for name, entry in entries.items()}
+        library = ctypes.PyDLL(str(path))
+        return {name: _function(library, PREFIX + name) for name in entries}
     except (OSError, AttributeError):  # no right to execute, a damaged file
         return None
 
@@ -102,8 +116,12 @@ def _knows_arrays() -> bool:
     return tuple((ctypes.c_int64 * 2).from_address(extents)) == array.shape
 
 
-def _function(library: ctypes.PyDLL, name: str, entry: Entry) -> Callable[..., Any]:
-    function = library[PREFIX + name]
-    function.argtypes = [ARGUMENTS.get(kind, ctypes.py_object) for kind in entry.parameters]
-    function.restype = ARGUMENTS[entry.result] if entry.result else None
+def _function(library: ctypes.PyDLL, name: str) -> Callable[..., Any]:
+    """Return a function of the library as one of Python, which ctypes takes no part in."""
+    code = ctypes.cast(library[name], ctypes.c_void_p)
+    _kept.append(_Definition(name.encode(), code.value, FASTCALL, None))
+    make = ctypes.PYFUNCTYPE(
+        ctypes.py_object, ctypes.POINTER(_Definition), ctypes.c_void_p, ctypes.c_void_p
+    )(("PyCFunction_NewEx", ctypes.pythonapi))
+    function: Callable[..., Any] = make(ctypes.byref(_kept[-1]), None, None)
     return function

@@ -59,6 +59,7 @@ MODULES = (
 )
 ENTRIES = (
     "advance",
+    "step",
     "rerun",
     "restore",
     "set_flags",
@@ -82,6 +83,7 @@ class Engine:
 
     name: str
     advance: Callable[..., Any]
+    step: Callable[..., Any]
     rerun: Callable[..., Any]
     restore: Callable[..., Any]
     set_flags: Callable[..., Any]

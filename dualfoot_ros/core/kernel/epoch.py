@@ -39,6 +39,7 @@ from .output_row import (
     missing,
     squared_distance,
     stands,
+    tell,
     watch_presence,
 )
 from .strapdown import mechanize, orthonormalise
@@ -177,3 +178,12 @@ def advance(w, n, dts, samples, start, stop, out):
         if n[N_NOTICE] != 0:
             return k + 1
     return stop
+
+
+def step(w, n, dts, samples, told):
+    """Run one epoch as `advance` does, and write all that is told of it to ``told`` (1, TOLD).
+
+    Returns whether that is the end of it: all is numbers, and no notice is set.
+    """
+    advance(w, n, dts, samples, 0, 1, told)
+    return tell(w, told) and n[N_NOTICE] == 0

@@ -160,25 +160,27 @@ def height_drift(w):
     return w[C_HEIGHT_DRIFT] * w[WALKED] * w[WALKED]
 
 
-def tell(w, out, k, blocks):
-    """Write the covariance to ``blocks`` (3 BLOCK,); return whether all of row ``k`` is numbers.
+def tell(w, told):
+    """Write the covariance after the row that ``told`` (1, TOLD) holds.
 
-    The blocks are left, right, cross.  Velocities are in the navigation frame: that of the floor
-    counts for both feet.  So does the drift of the height, which is alike in both.
+    Returns whether all of that row is numbers.  The blocks are left, right, cross.  Velocities are
+    in the navigation frame: that of the floor counts for both feet.  So does the drift of the
+    height, which is alike in both.
     """
     for i in range(3 * BLOCK):
-        blocks[i] = w[PLL + i]
+        told[0, OUT + i] = w[PLL + i]
     drifted = height_drift(w)
     moves = floor_moves(w)
     for b in range(3):
-        blocks[BLOCK * b + DIAGONAL * (E_POS + 2)] += drifted
+        o = OUT + BLOCK * b
+        told[0, o + DIAGONAL * (E_POS + 2)] += drifted
         if moves:
             for i in range(3):
                 std = w[FLOOR_UP_STD] if i == 2 else w[FLOOR_STD]
-                blocks[BLOCK * b + DIAGONAL * (E_VEL + i)] += std * std
+                told[0, o + DIAGONAL * (E_VEL + i)] += std * std
     numbers = 0
     for i in range(OUT):
-        if abs(out[k, i]) <= LARGEST:
+        if abs(told[0, i]) <= LARGEST:
             numbers += 1
     return numbers == OUT
 

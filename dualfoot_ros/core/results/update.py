@@ -96,28 +96,31 @@ class Update:
     """
 
     __slots__ = (
-        "_blocks", "_noted", "earlier", "facing", "phase", "refused", "row", "stamp_ns",
+        "_noted", "_told", "earlier", "facing", "phase", "refused", "stamp_ns",
     )  # fmt: skip
 
     def __init__(
         self,
         stamp_ns: int,
         phase: str,
-        *,
         refused: str | None = None,
-        row: FloatArray | None = None,
+        told: FloatArray | None = None,
         events: tuple[Event, ...] = (),
-        blocks: FloatArray | None = None,
         facing: Facing = NO_FACING,
     ) -> None:
         """Keep what was computed.
 
-        ``blocks`` is the covariance as `Session.told` gives it, ``facing`` what the headings
-        of the feet follow from.
+        ``told`` is what `Session.step` gives, ``facing`` what the headings of the feet follow
+        from.  Nothing is taken apart here: of most updates little is asked.
         """
-        self.stamp_ns, self.phase, self.refused, self.row = stamp_ns, phase, refused, row
-        self._noted, self._blocks, self.facing = events, blocks, facing
+        self.stamp_ns, self.phase, self.refused, self._told = stamp_ns, phase, refused, told
+        self._noted, self.facing = events, facing
         self.earlier: tuple[Update, ...] = ()
+
+    @property
+    def row(self) -> FloatArray | None:
+        """The output row (OUT,), laid out as in `core.kernel.layout`."""
+        return None if self._told is None else self._told[0, : lay.OUT]
 
     def after(self, earlier: Sequence[Update]) -> Update:
         """Return the update with those of the pairs that had waited for the start of the track."""
@@ -127,14 +130,16 @@ class Update:
     @property
     def events(self) -> tuple[Event, ...]:
         """Everything that was applied or found at this epoch, zero-velocity updates included."""
-        if self.row is None:
+        row = self.row
+        if row is None:
             return self._noted
-        zupts = (zupt_event(self.row, foot, self.stamp_ns) for foot in range(2))
+        zupts = (zupt_event(row, foot, self.stamp_ns) for foot in range(2))
         return (*(event for event in zupts if event is not None), *self._noted)
 
     def stance_nis(self, foot: int) -> float | None:
         """Return the NIS of the zero-velocity update of foot 0 or 1; None without one."""
-        return None if self.row is None else stance_nis(self.row, foot)
+        row = self.row
+        return None if row is None else stance_nis(row, foot)
 
     @property
     def announced(self) -> tuple[Event, ...]:
@@ -152,18 +157,19 @@ class Update:
         return self._foot(1)
 
     def _foot(self, foot: int) -> FootEstimate | None:
-        if self.row is None or self._blocks is None:
+        if self._told is None:
             return None
-        row = self.row[foot * lay.O_FOOT : (foot + 1) * lay.O_FOOT]
-        block = self._blocks[foot * lay.BLOCK : (foot + 1) * lay.BLOCK]
+        start = lay.OUT + foot * lay.BLOCK
+        block = self._told[0, start : start + lay.BLOCK]
+        row = self._told[0, foot * lay.O_FOOT : (foot + 1) * lay.O_FOOT]
         return FootEstimate(row, pose_part(block.reshape(lay.ERRORS, lay.ROW)))
 
     @property
     def present(self) -> tuple[bool, bool]:
         """Whether the left and the right foot had a sample."""
-        if self.row is None:
+        if self._told is None:
             return True, True
-        left, right = (bool(self.row[f * lay.O_FOOT + lay.O_PRESENT]) for f in range(2))
+        left, right = (bool(self._told[0, f * lay.O_FOOT + lay.O_PRESENT]) for f in range(2))
         return left, right
 
     def _shares(self) -> tuple[float, float]:
@@ -175,8 +181,8 @@ class Update:
 
     def foot_headings(self) -> tuple[float, float]:
         """Return the heading of each foot now, rad; of a foot that is missing, the other's."""
-        assert self.row is not None
-        parts = self.row[: 2 * lay.O_FOOT].reshape(2, lay.O_FOOT)
+        assert self._told is not None
+        parts = self._told[0, : 2 * lay.O_FOOT].reshape(2, lay.O_FOOT)
         left, right = (
             self.facing.heading(foot, parts[foot, lay.O_QUAT : lay.O_QUAT + 4])
             for foot in range(2)
@@ -186,11 +192,12 @@ class Update:
 
     def pedestrian(self) -> PedestrianEstimate | None:
         """Return the mid-point of the feet with heading, from the joint covariance."""
-        if self.row is None or self._blocks is None:
+        if self._told is None:
             return None
-        left, right = self.row[: lay.O_FOOT], self.row[lay.O_FOOT : 2 * lay.O_FOOT]
+        told = self._told[0]
+        left, right = told[: lay.O_FOOT], told[lay.O_FOOT : 2 * lay.O_FOOT]
         shares = self._shares()
-        covariance = mean_covariance(self._blocks, shares)
+        covariance = mean_covariance(told[lay.OUT :], shares)
         if not self.facing.known:
             covariance[5] = covariance[:, 5] = 0.0
             covariance[5, 5] = UNKNOWN_VARIANCE

@@ -6,11 +6,13 @@ from collections.abc import Callable
 
 from ..kernel import layout as lay
 from ..results.events import FEET, Event, EventKind
+from ..samples.pair_gate import MAX_GAP_NS
 from ..samples.series import FloatArray
 from .absence import Presence
 from .notices import Found
 from .walk_state import WalkState
 
+Step = Callable[[int, float, FloatArray], tuple[FloatArray | None, Found]]
 LONGEST_STEP = 1.7  # of the nominal interval: longer ones are holes
 
 
@@ -25,12 +27,14 @@ class Holes:
     """
 
     def __init__(
-        self, walk: WalkState, step: Callable[[int, float, FloatArray], tuple[FloatArray, Found]]
+        self,
+        walk: WalkState,
+        step: Callable[[int, float, FloatArray], tuple[FloatArray | None, Found]],
     ) -> None:
         self._walk, self._step = walk, step
         self._rate_hz = walk.space.rate_hz
         self.period_ns = round(1e9 / self._rate_hz)
-        self.longest_ns = round(LONGEST_STEP * 1e9 / self._rate_hz)
+        self.longest_ns = min(round(LONGEST_STEP * 1e9 / self._rate_hz), MAX_GAP_NS)
         self.filled_ns = 0
 
     def fill(self, stamp: int, dt_ns: int, values: FloatArray) -> Found:

@@ -47,7 +47,6 @@ class Session:
         self._notices = Notices(walk, stood_first=not start.waiting)
         self.holes = Holes(walk, self.step)
         self._dt, self._values = np.empty(1), np.empty((1, 12))
-        self._row = np.zeros((1, lay.OUT))
         self.space, self.rate_hz = walk.space, start.rate_hz
         walk.use(engine)
         self._level()
@@ -103,27 +102,26 @@ class Session:
         )
         return Event(EventKind.ALIGNED, stamp, "both", stamp, payload=levelled)
 
-    def step(self, stamp: int, dt_s: float, values: FloatArray) -> tuple[FloatArray, Found]:
-        """Run one epoch; return its output row (OUT,) and the events it brought."""
-        walk = self._walk
+    def step(self, stamp: int, dt_s: float, values: FloatArray) -> tuple[FloatArray | None, Found]:
+        """Run one epoch; return all that is told of it (1, TOLD) and the events it brought.
+
+        None is told when its row is no numbers.
+        """
+        walk, space = self._walk, self.space
         if walk.phase == "standing":
             self._refine(stamp, values)
-        space, n = self.space, self.space.n
-        self._dt[0] = dt_s
-        self._values[0] = values
-        walk.engine.advance(space.w, n, self._dt, self._values, 0, 1, self._row)
-        space.stamps[n[lay.N_EPOCH] % space.ring] = stamp
+        w, n, engine = space.w, space.n, walk.engine
+        self._dt[0], self._values[0] = dt_s, values
+        told = np.empty((1, lay.TOLD))
+        done = engine.step(w, n, self._dt, self._values, told)
+        space.keep_stamp(stamp)
+        if done:
+            return told, []
         found: Found = []
         if n[lay.N_NOTICE]:
             found = self._notices.attend()
-            walk.engine.emit(space.w, n, self._row, 0)
-        return self._row[0].copy(), found
-
-    def told(self) -> FloatArray | None:
-        """Return the covariance (3 BLOCK,) of the newest epoch; None if its row is no numbers."""
-        blocks = np.empty(3 * lay.BLOCK)
-        good = self._walk.engine.tell(self.space.w, self._row, 0, blocks)
-        return blocks if good else None
+            walk.engine.emit(w, n, told, 0)
+        return (told if walk.engine.tell(w, told) else None), found
 
     def _refine(self, stamp: int, values: FloatArray) -> None:
         """Level anew when the stand has gone on for a window's length more."""

@@ -52,6 +52,7 @@ class FindingKind(StrEnum):
     # stamps and clocks
     BEGINS_ANEW = "begins_anew"
     STAMPS = "stamps"
+    OVERLAID = "overlaid", True
     NO_OVERLAP = "no_overlap"
     RATES = "rates"
     ONE_FOOT = "one_foot"

@@ -46,6 +46,7 @@ from .stream_findings import (
     find_low_rate,
     find_missing_samples,
     find_no_standstill,
+    find_overlaid_samples,
     find_stuck_values,
 )
 from .unit_findings import find_force_unit, find_gravity, find_rate_unit
@@ -72,6 +73,7 @@ OF_STREAM: Sequence[FootFindings] = (
     find_gaps,
     find_missing_samples,
     find_bad_stamps,
+    find_overlaid_samples,
     find_jitter,
     find_low_rate,
     find_clipping,

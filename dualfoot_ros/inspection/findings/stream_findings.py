@@ -107,6 +107,21 @@ def find_jitter(foot: str, quality: Quality) -> Iterator[Finding]:
         )
 
 
+def find_overlaid_samples(foot: str, quality: Quality) -> Iterator[Finding]:
+    """Yield a finding where samples of two times lie between each other."""
+    if quality.overlaid:
+        yield Finding(
+            FindingKind.OVERLAID,
+            Severity.WARNING,
+            f"{foot} foot: for {quality.overlaid.duration_s:.1f} s, "
+            f"{quality.overlaid.start_s:.1f} s after the first sample, samples of two times or of "
+            "two sensors lie between each other; the track is wrong from there on",
+            "a bag that was sorted by a clock that had been set back is so: take the bag as it "
+            "was recorded, or cut it there; let one sensor publish on the topic",
+            foot,
+        )
+
+
 def find_low_rate(foot: str, quality: Quality) -> Iterator[Finding]:
     """Yield a finding when the rate is too low for the swing of a foot."""
     if quality.rate_hz < LOW_RATE_HZ:

@@ -75,8 +75,8 @@ class BagSource(Protocol):
     def cut(self) -> str:
         """What of the bag cannot be read, as a sentence; empty for a whole one."""
 
-    def messages(self, topics: Collection[str]) -> Iterator[Message]:
-        """Yield the messages of ``topics``, in the order in which they were logged."""
+    def blocks(self, topics: Collection[str]) -> Iterator[Block]:
+        """Yield the messages of ``topics`` in blocks, file by file."""
 
     def close(self) -> None:
         """Close the files."""
@@ -106,10 +106,11 @@ class Chained:
         """What cannot be read of any of the files."""
         return "; ".join(part.cut for part in self.parts if part.cut)
 
-    def messages(self, topics: Collection[str]) -> Iterator[Message]:
-        """Yield the messages of ``topics``, file by file."""
-        for part in self.parts:
-            yield from part.messages(topics)
+    def blocks(self, topics: Collection[str]) -> Iterator[Block]:
+        """Yield the messages of ``topics`` in blocks, file by file."""
+        for number, part in enumerate(self.parts):
+            for block in part.blocks(topics):
+                yield block._replace(file=number)
 
     def close(self) -> None:
         """Close all files."""

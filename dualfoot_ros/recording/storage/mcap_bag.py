@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path, PurePath
 from typing import Any
 
-from .bag_source import Block, Message, TopicInfo
+from .bag_source import Block, TopicInfo
 from .mcap_chunks import McapChunks
 from .mcap_format import HEAD, HEADER, MAGIC
 from .mcap_scan import text
@@ -39,16 +39,6 @@ class McapBag:
         self.topics = dict(sorted(_topics(facts["topics_with_message_count"])))
         custom = facts.get("custom_data")
         self.custom = dict(custom) if isinstance(custom, Mapping) else {}
-
-    def messages(self, topics: Collection[str]) -> Iterator[Message]:
-        """Yield the messages of ``topics``, file by file in the order of their log times."""
-        for file in self._files:
-            own = [
-                Message(block.topic, log_ns, bytes(row))
-                for block in file.blocks(topics)
-                for log_ns, row in zip(block.log_ns.tolist(), block.rows, strict=True)
-            ]
-            yield from sorted(own, key=lambda message: message.log_ns)
 
     def blocks(self, topics: Collection[str]) -> Iterator[Block]:
         """Yield the messages of ``topics`` in blocks, by the chunks of the files."""

@@ -9,7 +9,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
-from .bag_source import Message, TopicInfo
+from .bag_source import Block, Message, TopicInfo, in_blocks
 from .mcap_format import (
     CHANNEL,
     CHUNK,
@@ -61,9 +61,9 @@ class McapScan:
         what = "is damaged" if self._ended else "was cut off before its end"
         return f"'{self._path.name}' {what}; the {messages} messages that are whole are read"
 
-    def messages(self, topics: Collection[str]) -> Iterator[Message]:
-        """Yield the messages of ``topics`` that are whole."""
-        yield from self._messages(topics)
+    def blocks(self, topics: Collection[str]) -> Iterator[Block]:
+        """Yield the messages of ``topics`` that are whole, in blocks."""
+        return in_blocks(self._messages(topics))
 
     def close(self) -> None:
         """Do nothing: the file is open while it is read only."""

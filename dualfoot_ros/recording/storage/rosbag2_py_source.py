@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
-from .bag_source import Message, TopicInfo
+from .bag_source import Block, Message, TopicInfo, in_blocks
+from .sqlite_rows import SqliteRows
 
-STORAGE_OF_SUFFIX = {".mcap": "mcap", ".db3": "sqlite3"}
+ROWS = ".db3"
+STORAGE_OF_SUFFIX = {".mcap": "mcap", ROWS: "sqlite3"}
 
 
 class Rosbag2PySource:
@@ -20,6 +22,7 @@ class Rosbag2PySource:
         """Open ``path``; raises RuntimeError when it cannot be read."""
         self._path = path
         metadata = self._open().get_metadata()
+        self._files = [PurePath(name).name for name in metadata.relative_file_paths]
         self.topics = {
             entry.topic_metadata.name: TopicInfo(entry.topic_metadata.type, entry.message_count)
             for entry in metadata.topics_with_message_count
@@ -38,14 +41,27 @@ class Rosbag2PySource:
         )
         return reader
 
-    def messages(self, topics: Collection[str]) -> Iterator[Message]:
-        """Yield the messages of ``topics``."""
+    def blocks(self, topics: Collection[str]) -> Iterator[Block]:
+        """Yield the messages of ``topics`` in blocks, those of each file as they stand in it.
+
+        The rows of sqlite3 are read here: rosbag2_py has them by log time only.
+        """
+        if all(name.endswith(ROWS) for name in self._files):
+            for number, name in enumerate(self._files):
+                path = self._path / name if self._path.is_dir() else self._path
+                yield from SqliteRows(path, number).blocks(topics)
+            return
+        for block in in_blocks(self._messages(topics)):
+            yield block._replace(file=0)
+
+    def _messages(self, topics: Collection[str]) -> Iterator[Message]:
         import rosbag2_py
 
         wanted = [topic for topic in self.topics if topic in topics]
         if not wanted:
             return
         reader = self._open()
+        reader.set_read_order(rosbag2_py.ReadOrder(rosbag2_py.ReadOrderSortBy.File, False))
         reader.set_filter(rosbag2_py.StorageFilter(topics=wanted))
         while reader.has_next():
             topic, data, log_ns = reader.read_next()

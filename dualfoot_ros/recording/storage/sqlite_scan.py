@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterator
 from contextlib import closing
 from pathlib import Path
 
-from .bag_source import Message, TopicInfo
+from .bag_source import Block, Message, TopicInfo, in_blocks
 
 ROWS = "SELECT topic_id, timestamp, data FROM messages ORDER BY id"
 
@@ -30,7 +30,7 @@ class SqliteScan:
         with closing(self._connect()) as base:
             rows = base.execute("SELECT id, name, type FROM topics").fetchall()
         self._names = {number: str(name) for number, name, _ in rows}
-        counts = Counter(message.topic for message in self.messages(self._names.values()))
+        counts = Counter(message.topic for message in self._messages(self._names.values()))
         self.topics = {str(n): TopicInfo(str(kind), counts[str(n)]) for _, n, kind in rows}
         self.cut = self._describe_cut(sum(counts.values())) if self._broken else ""
 
@@ -50,7 +50,11 @@ class SqliteScan:
             "before that are read"
         )
 
-    def messages(self, topics: Collection[str]) -> Iterator[Message]:
+    def blocks(self, topics: Collection[str]) -> Iterator[Block]:
+        """Yield the messages of ``topics`` up to the first page that is missing, in blocks."""
+        return in_blocks(self._messages(topics))
+
+    def _messages(self, topics: Collection[str]) -> Iterator[Message]:
         """Yield the messages of ``topics`` up to the first page that is missing."""
         wanted = {number: name for number, name in self._names.items() if name in topics}
         with closing(self._connect()) as base:

@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from rosbags.rosbag2 import StoragePlugin, Writer
-from rosbags.typesys import Stores, get_typestore
 
-from dualfoot_ros.recording import cdr, read_logged
+from dualfoot_ros.recording import read_logged
 from dualfoot_ros.recording.storage.log_order import recorded_order
-from dualfoot_ros.recording.topics import IMU_TYPE
+
+from .. import stepped
 
 START_NS = 10**18
 STEP_NS = 10_000_000
@@ -61,16 +60,27 @@ def test_files_keep_their_order_and_each_has_its_own():
     assert recorded_order(log_ns, files).tolist() == wanted
 
 
-def test_a_bag_is_read_in_the_order_in_which_it_was_recorded(tmp_path):
-    log_ns = logged()
-    log_ns[200:] -= 1_000_000_000
-    with Writer(tmp_path / "bag", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
-        types = get_typestore(Stores.ROS2_JAZZY)
-        connection = writer.add_connection("/left/imu/data_raw", IMU_TYPE, typestore=types)
-        for k, log in enumerate(log_ns.tolist()):
-            row = cdr.encode(np.array([log]), np.full((1, 37), float(k)), ("imu",))
-            writer.write(connection, log, row.tobytes())
-    recording, times = read_logged(tmp_path / "bag")
-    assert recording.left.angular_rate[:, 0].tolist() == [float(k) for k in range(COUNT)]
-    assert np.array_equal(recording.left.stamp_ns, log_ns)
-    assert np.array_equal(times["left"], log_ns)
+@pytest.mark.parametrize("compressed", [False, True])
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_a_bag_is_read_in_the_order_in_which_it_was_recorded(tmp_path, storage, compressed):
+    stepped.assert_in_order(stepped.ros2(tmp_path / "bag", storage, compressed=compressed))
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_so_is_one_without_metadata(tmp_path, storage):
+    bag = stepped.ros2(tmp_path / "bag", storage)
+    (bag / "metadata.yaml").unlink()
+    stepped.assert_in_order(bag)
+
+
+def test_so_is_one_of_ros_1(tmp_path):
+    stepped.assert_in_order(stepped.ros1(tmp_path / "bag.bag"))
+
+
+def test_of_two_files_without_metadata_each_is_sorted_by_itself(tmp_path):
+    (tmp_path / "bag").mkdir()
+    for number in range(2):
+        bag = stepped.ros2(tmp_path / str(number), "sqlite3")
+        (bag / f"{number}.db3").rename(tmp_path / "bag" / f"bag_{number}.db3")
+    recording, _ = read_logged(tmp_path / "bag")
+    assert recording.left.stamp_ns.tolist() == stepped.log_times().tolist() * 2

@@ -12,6 +12,8 @@ import numpy as np
 
 def plain(value: Any) -> Any:
     """Return ``value`` in the types that JSON has; not-a-number and infinity become None."""
+    if type(value) is float:  # most of them, in the curves of a page
+        return value if math.isfinite(value) else None
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple, set)):

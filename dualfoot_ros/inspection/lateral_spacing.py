@@ -22,30 +22,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..core import StancePassing
+from .spacing_filter import DELTA, S, SpacingFilter
 
-SPACING_STD_M = 0.3  # of either sign
-PLACEMENT_STD_M = 0.3
-HEADING_STD = 0.1  # rad; first strides are that unlike
-SCALE_STD = 0.03
-MOMENT_STD_M = 0.1
-WANDER_STD_M = 0.02  # from passing to passing
-HEADING_WANDER = 0.003  # rad from passing to passing
-HEADING_PER_TURN = 0.02  # rad per rad: scale factors of the gyros
-PLACE_PER_TURN = 0.003  # of the way so far, per rad
-SCALE_WANDER = 0.001
-ACROSS_STD_M = 0.04
-ALONG_STD_M = 0.08
-JUMP_NIS = 20.0
 LEAST_STEPS = 5  # steps; fewer have no scatter
 FARTHEST_HEADING = 0.5  # rad; tracks that differ by more are not used
-
-S, A, DELTA, EPSILON, D = 0, slice(1, 3), 3, 4, 5
 
 
 @dataclass(frozen=True)
@@ -87,20 +72,20 @@ def side_by_side(passings: Sequence[StancePassing]) -> SideBySide:
     halves = (first, _run(passings[used // 2 : used])[0])
     headings = np.unwrap([math.atan2(p.forward[1], p.forward[0]) for p in passings[:used]])
     return SideBySide(
-        spacing_m=float(filter_.x[S]),
+        spacing_m=filter_.x[S],
         std_m=filter_.std_m,
         passings=used,
         turned_rad=float(np.ptp(headings)) if used else 0.0,
         jumps=filter_.jumps,
         scatter_m=_scatter(passings[:used]),
-        heading_difference_rad=float(filter_.x[DELTA]),
+        heading_difference_rad=filter_.x[DELTA],
         halves_agree=all(sign * half.x[S] > -half.std_m for half in halves),
     )
 
 
-def _run(passings: Sequence[StancePassing]) -> tuple[_Filter, int, _Filter]:
+def _run(passings: Sequence[StancePassing]) -> tuple[SpacingFilter, int, SpacingFilter]:
     """Return the filter after the passings, the number of those it used, and it at half of all."""
-    filter_, used = _Filter(), 0
+    filter_, used = SpacingFilter(), 0
     half = filter_.copy()
     for passing in passings:
         if used == len(passings) // 2:
@@ -110,82 +95,6 @@ def _run(passings: Sequence[StancePassing]) -> tuple[_Filter, int, _Filter]:
         if abs(filter_.x[DELTA]) > FARTHEST_HEADING:
             break
     return filter_, used, half
-
-
-class _Filter:
-    """Kalman filter of spacing, placement, heading and scale difference, moment."""
-
-    def __init__(self) -> None:
-        self.x = np.zeros(6)
-        place, moment = PLACEMENT_STD_M**2, MOMENT_STD_M**2
-        first = [SPACING_STD_M**2, place, place, HEADING_STD**2, SCALE_STD**2, moment]
-        self.p = np.diag(first)
-        self.jumps = 0
-        self.nis = 0.0  # sum over the passings, two degrees of freedom each
-        self.taken = 0
-        self._last: StancePassing | None = None
-        self._way_m = 0.0
-
-    def copy(self) -> _Filter:
-        """Return the same filter, which goes on by itself."""
-        own = copy(self)
-        own.x, own.p = self.x.copy(), self.p.copy()
-        return own
-
-    def add(self, passing: StancePassing) -> None:
-        """Go on to ``passing`` and take it."""
-        if self._last is not None:
-            self._advance(passing, self._last)
-        self._last = passing
-        left, forward = passing.left, passing.forward
-        sign = 1.0 if passing.standing == 1 else -1.0
-        h = np.array(
-            [
-                [left[0], 1.0, 0.0, 0.0, 0.0, sign * forward[0]],
-                [left[1], 0.0, 1.0, 0.0, 0.0, sign * forward[1]],
-            ]
-        )
-        noise = ACROSS_STD_M**2 * (left[:, None] * left)
-        noise += ALONG_STD_M**2 * (forward[:, None] * forward)
-        innovation = passing.separation - h @ self.x
-        s = h @ self.p @ h.T + noise
-        nis = innovation @ np.linalg.solve(s, innovation)
-        if nis > JUMP_NIS:
-            self._place_anew(float(innovation @ innovation))
-            s = h @ self.p @ h.T + noise
-            nis = innovation @ np.linalg.solve(s, innovation)
-        self.nis += float(nis)
-        self.taken += 1
-        gain = self.p @ h.T @ np.linalg.inv(s)
-        self.x = self.x + gain @ innovation
-        self.p = self.p - gain @ s @ gain.T
-
-    def _advance(self, passing: StancePassing, last: StancePassing) -> None:
-        way = passing.middle - last.middle
-        self._way_m += float(np.linalg.norm(way))
-        (a, b), (c, d) = last.forward, passing.forward
-        turned = abs(math.atan2(a * d - b * c, a * c + b * d))
-        f = np.eye(6)
-        f[A, DELTA] = [-way[1], way[0]]
-        f[A, EPSILON] = way
-        self.x = f @ self.x
-        self.p = f @ self.p @ f.T
-        place = WANDER_STD_M**2 + (PLACE_PER_TURN * self._way_m * turned) ** 2
-        self.p[A, A] += place * np.eye(2)
-        self.p[DELTA, DELTA] += HEADING_WANDER**2 + (HEADING_PER_TURN * turned) ** 2
-        self.p[EPSILON, EPSILON] += SCALE_WANDER**2
-
-    @property
-    def std_m(self) -> float:
-        """Standard deviation of the spacing, larger where the tracks scatter more than due."""
-        excess = self.nis / (2.0 * self.taken) if self.taken else 1.0
-        return math.sqrt(float(self.p[S, S]) * max(1.0, excess))
-
-    def _place_anew(self, square_m2: float) -> None:
-        self.jumps += 1
-        self.p[A, :] = 0.0
-        self.p[:, A] = 0.0
-        self.p[A, A] = (4.0 * PLACEMENT_STD_M**2 + square_m2) * np.eye(2)
 
 
 def _scatter(passings: Sequence[StancePassing]) -> float:

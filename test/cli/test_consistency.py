@@ -10,9 +10,15 @@ from dualfoot_ros.core import AlignmentError
 FEW = ["--walks", "2", "--route", "straight", "--rate", "60", "--jobs", "1"]
 
 
-def test_the_table_has_every_quantity_with_its_band(capsys):
-    assert main(["consistency", *FEW, "--method", "idc"]) == 0
+def test_the_table_has_every_quantity_with_its_band_and_the_report_has_figures_and_plot(
+    tmp_path, capsys
+):
+    target = tmp_path / "report"
+    assert main(["consistency", *FEW, "--method", "idc", "-o", str(target)]) == 0
     out = capsys.readouterr().out
+    assert {p.name for p in target.iterdir()} == {"consistency.json", "consistency.png"}
+    assert json.loads((target / "consistency.json").read_text())["failed"] == {}
+    assert str(target / "consistency.png") in out
     for words in ("idc: 2 walks", "left height", "relative position", "NEES", "NIS", "constraint"):
         assert words in out
 
@@ -27,14 +33,6 @@ def test_the_json_is_the_same_for_the_same_seeds_in_one_process_and_in_two(capsy
     names = [score["name"] for score in found[0]["scores"]]
     assert "relative horizontal" in names and "zero velocity" in names
     assert all(score["band"][0] < 1.0 < score["band"][1] for score in found[0]["scores"])
-
-
-def test_the_report_has_figures_and_plot(tmp_path, capsys):
-    target = tmp_path / "report"
-    assert main(["consistency", *FEW, "-o", str(target)]) == 0
-    assert {p.name for p in target.iterdir()} == {"consistency.json", "consistency.png"}
-    assert json.loads((target / "consistency.json").read_text())["failed"] == {}
-    assert str(target / "consistency.png") in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -14,10 +14,10 @@ from dualfoot_ros.simulation import BarometerConfig, WalkConfig, simulate
 
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory):
-    """Return a simulated walk with truth on disk."""
-    made = simulate(WalkConfig(route="straight", rate=60.0), seed=4)
-    path = tmp_path_factory.mktemp("bags") / "walk"
-    write_bag(path, Recording(made.left, made.right, made.left_truth, made.right_truth))
+    """Return the first half minute of a simulated walk on disk, with truth."""
+    made = simulate(WalkConfig(route="straight", rate=60.0, standing=4.0), seed=4)
+    path, feet = tmp_path_factory.mktemp("bags") / "walk", (made.left[:1800], made.right[:1800])
+    write_bag(path, Recording(*feet, made.left_truth, made.right_truth))
     return str(path)
 
 

@@ -24,8 +24,14 @@ def evaluated(path: Path, method: str = "zupt", **settings):
 
 
 @cache
+def imported(path: Path):
+    """Return one recording."""
+    return import_recording(ImportOptions(sources=(path,)))
+
+
+@cache
 def _evaluated(path: Path, method: str, **settings):
-    recording = import_recording(ImportOptions(sources=(path,)))
+    recording = imported(path)
     found = track(recording, TrackerConfig.from_mapping({"method": method, **settings}))
     return evaluate(found, reference=recording.reference)
 

@@ -35,7 +35,7 @@ from dualfoot_ros.simulation import WalkConfig, simulate
 @pytest.fixture(scope="module")
 def walked() -> Recording:
     """Return a simulated walk with turns and with truth."""
-    made = simulate(WalkConfig(route="rectangle", standing=4.0), seed=4)
+    made = simulate(WalkConfig(route="rectangle", rate=60.0, standing=4.0), seed=4)
     return Recording(made.left, made.right, made.left_truth, made.right_truth)
 
 

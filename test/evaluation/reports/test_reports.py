@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from dualfoot_ros.evaluation.notes import marker_notes, refusal_notes
 from dualfoot_ros.evaluation.plain import plain
 from dualfoot_ros.evaluation.reports.output import check_directory, report_folder
 from dualfoot_ros.evaluation.reports.plots import draw_all, stances, tracks
+from dualfoot_ros.evaluation.reports.plots.distance import draw_distance
 from dualfoot_ros.evaluation.reports.plots.error_curves import _in_stance
 from dualfoot_ros.evaluation.reports.text_files import write_tracks
 from dualfoot_ros.evaluation.reports.walk_table import _few, walk_table
@@ -63,18 +65,45 @@ def test_the_table_without_any_reference_shows_only_what_the_feet_tell():
     assert "RMSE (m)" not in text.replace("RMS, max (m)", "")
 
 
-def test_every_figure_of_the_report_is_drawn_as_a_png(tmp_path):
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    """Return the figures of a walk, and whether drawing them has imported pyplot.
+
+    No legend can search for its place meanwhile.
+    """
+    from matplotlib.legend import Legend
+
+    def search(*_):
+        raise AssertionError
+
     track, truth = drifted()
-    paths = draw_all({"zupt": evaluate(track, truth=truth)}, tmp_path, "a walk")
-    assert [p.stem for p in paths] == ["tracks", "feet_distance", "stances", "errors"]
-    assert all(p.read_bytes().startswith(PNG) for p in paths)
+    sys.modules.pop("matplotlib.pyplot", None)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Legend, "_find_best_position", search)
+        folder = tmp_path_factory.mktemp("report")
+        paths = draw_all({"zupt": evaluate(track, truth=truth)}, folder, "a walk")
+    return SimpleNamespace(paths=paths, with_pyplot="matplotlib.pyplot" in sys.modules)
+
+
+def test_every_figure_of_the_report_is_drawn_as_a_png(drawn):
+    assert [p.stem for p in drawn.paths] == ["tracks", "feet_distance", "stances", "errors"]
+    assert all(p.read_bytes().startswith(PNG) for p in drawn.paths)
+
+
+def test_drawing_leaves_no_global_state_of_pyplot(drawn):
+    assert not drawn.with_pyplot
+
+
+def test_no_legend_searches_for_its_place(drawn):
+    assert drawn.paths and all(path.stat().st_size > 0 for path in drawn.paths)
 
 
 def test_markers_have_a_figure_and_a_walk_of_many_stances_is_drawn_too(tmp_path):
-    points = np.column_stack([np.arange(300) * 1.2, np.zeros(300)])
+    count = tracks.MOST_DOTS + 1
+    points = np.column_stack([np.arange(count) * 1.2, np.zeros(count)])
     track, _ = perfect(points)
     side = points + np.array([0.0, -0.1])
-    markers = Reference("made by formula", {"right": np.column_stack([side, np.zeros(300)])})
+    markers = Reference("made by formula", {"right": np.column_stack([side, np.zeros(count)])})
     paths = draw_all({"zupt": evaluate(track, reference=markers)}, tmp_path, "a walk")
     assert paths[-1].name == "marker_errors.png"
 
@@ -96,21 +125,14 @@ def test_the_legend_of_a_narrow_walk_is_not_cut_off(tmp_path, monkeypatch):
     assert extent.x1 <= figure.bbox.width
 
 
-def test_drawing_leaves_no_global_state_of_pyplot(tmp_path):
-    import sys
-
-    sys.modules.pop("matplotlib.pyplot", None)
-    draw_all({"zupt": evaluate(drifted()[0])}, tmp_path, "a walk")
-    assert "matplotlib.pyplot" not in sys.modules
-
-
 def test_constraints_applied_and_refused_are_told_apart_in_counts_and_drawn(tmp_path):
     left, right, stance = straight()
     feet = foot(left, stance[0]), foot(right, stance[1])
     found = evaluate(trajectory(*feet, moments=left.stamp_ns[100:400:60]))
     assert found.to_dict()["events"] == {"constraint": {"applied": 5}}
     assert found.feet.moments == "constraint"
-    draw_all({"idc": found}, tmp_path, "a walk")
+    assert draw_distance({"idc": found}, tmp_path / "distance.png", "a walk").stat().st_size > 0
+    assert stances.draw_stances(found, tmp_path / "stances.png", "a walk").stat().st_size > 0
 
 
 def test_a_demonstration_has_one_table_with_a_block_a_method_and_files_on_disk(tmp_path):
@@ -167,18 +189,6 @@ def test_a_long_walk_has_at_most_five_rows_of_errors_along_the_way(kilometres):
     steps = np.diff([float(mark) for mark in shown])
     assert np.ptp(steps) == 0 if len(steps) else True
     assert _few([]) == []
-
-
-def test_no_legend_searches_for_its_place(tmp_path, monkeypatch):
-    from matplotlib.legend import Legend
-
-    def search(*_):
-        raise AssertionError
-
-    monkeypatch.setattr(Legend, "_find_best_position", search)
-    track, truth = drifted()
-    drawn = draw_all({"zupt": evaluate(track, truth=truth)}, tmp_path, "a walk")
-    assert drawn and all(path.stat().st_size > 0 for path in drawn)
 
 
 def test_the_stances_of_an_hour_are_drawn_line_by_line_without_an_end():

@@ -7,6 +7,7 @@ there is no C compiler, or where what it made has other bits, numba does it.
 from __future__ import annotations
 
 import types
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -31,38 +32,45 @@ def compiled() -> Engine:
         When there is neither a C compiler nor numba, and the cache is cold.
     """
     directory = usable_cache()
-    functions = _library_for_once() if directory is None else _from_library(directory)
+    functions = _from_kept_library(directory)
     if functions is None:
         functions = _from_numba(directory)
     if directory is not None:
-        (directory / READY).touch()
+        with suppress(OSError):
+            (directory / READY).touch()
     return Engine("compiled", **functions)
 
 
-def _library_for_once() -> Functions | None:
-    """Return the entries of a library that is not kept; once it is loaded no file is needed."""
-    try:
-        with TemporaryDirectory() as folder:
-            return _from_library(Path(folder))
-    except OSError:
-        return None
+def _from_kept_library(directory: Path | None) -> Functions | None:
+    """Return the entries of a library that is kept in ``directory`` where that can be.
+
+    Once it is loaded no file is needed: where it cannot be kept, it is made for this process.
+    """
+    if directory is not None:
+        with suppress(OSError):  # a full disk, a folder that has gone
+            return _from_library(directory)
+    with suppress(OSError), TemporaryDirectory() as folder:
+        return _from_library(Path(folder))
+    return None
 
 
 def _from_library(directory: Path) -> Functions | None:
     """Return the entries of the library in ``directory``, made where it is not there.
 
     None where it cannot be made, which an empty file in its place tells the next process.
+
+    Raises
+    ------
+    OSError
+        Where ``directory`` takes no file.
     """
     path = library_path(directory)
-    try:
-        if path.exists() or not can_compile():
-            return load_library(path, ENTRY_KINDS)
-        source = library_source(kernel_functions(), ENTRY_KINDS)
-        functions = make_library(path, source, ENTRY_KINDS, same_bits)
-        if functions is None:
-            path.touch()
-    except OSError:  # a full disk, a folder that has gone
-        return None
+    if path.exists() or not can_compile():
+        return load_library(path, ENTRY_KINDS)
+    source = library_source(kernel_functions(), ENTRY_KINDS)
+    functions = make_library(path, source, ENTRY_KINDS, same_bits)
+    if functions is None:
+        path.touch()
     return functions
 
 

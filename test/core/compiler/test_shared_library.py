@@ -133,13 +133,17 @@ def test_without_a_compiler_nothing_is_tried(tmp_path, monkeypatch, lacks):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_where_nothing_can_be_written_nothing_is_raised(few_entries, tmp_path):
-    assert compiled_kernel._from_library(tmp_path / "gone") is None
+def test_where_nothing_can_be_written_nothing_is_raised(few_entries, tmp_path, monkeypatch):
+    monkeypatch.setattr(compiled_kernel, "TemporaryDirectory", _folder_in(tmp_path / "gone"))
+    assert compiled_kernel._from_kept_library(tmp_path / "gone") is None
 
 
-def test_a_library_for_once_leaves_no_file(few_entries, tmp_path, monkeypatch):
+@pytest.mark.parametrize("kept_in", [None, "gone"])
+def test_a_library_that_is_kept_nowhere_leaves_no_file(
+    few_entries, tmp_path, monkeypatch, kept_in
+):
     monkeypatch.setattr(compiled_kernel, "TemporaryDirectory", _folder_in(tmp_path))
-    functions = compiled_kernel._library_for_once()
+    functions = compiled_kernel._from_kept_library(kept_in and tmp_path / kept_in)
     assert list(tmp_path.iterdir()) == []
     flags = []
     for set_flags in (functions["set_flags"], interpreted().set_flags):

@@ -1,14 +1,8 @@
-"""The motion of one shoe as a quintic B-spline: exact position, velocity, rotation and rates.
-
-The rough motion (footprints, templates, ringing, wobble) is sampled at the control points of a
-uniform quintic B-spline.  The spline through them *is* the truth: four times continuously
-differentiable, exactly at rest where the rough motion rests, every derivative a closed form.
-"""
+"""The rough motion of one shoe: footprints, templates, ringing and wobble at control points."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from functools import cached_property
 
 import numpy as np
 
@@ -17,90 +11,12 @@ from . import gait
 from .footprints import HEEL_STRIKE, Footprints
 from .noise import smooth_noise, smooth_rate_noise
 from .routes import Route
-from .walk_config import WalkConfig, rotation_zyx
-
-if TYPE_CHECKING:
-    from scipy.interpolate import BSpline
+from .shoe import ShoeMotion
+from .walk_config import WalkConfig
 
 KNOT_S = 0.01
 MARGIN_S = 0.5
 LEAST_RISE_M = 0.05  # of a stair
-
-
-@dataclass(frozen=True)
-class Kinematics:
-    """The motion of a sensor at one place on the shoe; the sensor's frame is the body frame.
-
-    Attributes
-    ----------
-    position : (N, 3) m
-    velocity : (N, 3) m/s
-    rotation : (N, 3, 3) body to navigation
-    specific_force : (N, 3) m/s^2, body frame
-    angular_rate : (N, 3) rad/s, body frame
-    """
-
-    position: FloatArray
-    velocity: FloatArray
-    rotation: FloatArray
-    specific_force: FloatArray
-    angular_rate: FloatArray
-
-
-@dataclass(frozen=True)
-class ShoeMotion:
-    """Ball of the foot (x, y, z, m) and yaw, pitch, roll (rad) of the shoe as one spline."""
-
-    spline: BSpline
-    gravity: float
-
-    def position(self, time_s: FloatArray, lever: FloatArray) -> FloatArray:
-        """Return the (N, 3) position of the point at ``lever`` (3,) m in the shoe."""
-        state = self.spline(time_s)
-        position: FloatArray = state[:, :3] + rotation_zyx(*state[:, 3:].T) @ lever
-        return position
-
-    def kinematics(
-        self, time_s: FloatArray, lever: FloatArray, mounting: FloatArray
-    ) -> Kinematics:
-        """Return the motion of a sensor at ``lever`` (3,), turned by ``mounting`` (3, 3)."""
-        state, first, second = (self.spline(time_s, order) for order in range(3))
-        shoe = rotation_zyx(*state[:, 3:].T)
-        rate, acceleration = body_rates(state[:, 3:], first[:, 3:], second[:, 3:])
-        swirl = np.cross(rate, lever)
-        arm = np.cross(acceleration, lever) + np.cross(rate, swirl)
-        force = second[:, :3] + [0.0, 0.0, self.gravity]
-        return Kinematics(
-            position=state[:, :3] + shoe @ lever,
-            velocity=first[:, :3] + _rotate(shoe, swirl),
-            rotation=shoe @ mounting,
-            specific_force=(_rotate(shoe.transpose(0, 2, 1), force) + arm) @ mounting,
-            angular_rate=rate @ mounting,
-        )
-
-
-def body_rates(
-    angles: FloatArray, first: FloatArray, second: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Return body angular rate and acceleration (N, 3) of yaw-pitch-roll angles (N, 3)."""
-    _, pitch, roll = angles.T
-    dy, dp, dr = first.T
-    ddy, ddp, ddr = second.T
-    sp, cp, sr, cr = np.sin(pitch), np.cos(pitch), np.sin(roll), np.cos(roll)
-    rate = np.column_stack([dr - dy * sp, dp * cr + dy * cp * sr, -dp * sr + dy * cp * cr])
-    acceleration = np.column_stack(
-        [
-            ddr - ddy * sp - dy * dp * cp,
-            ddp * cr - dp * dr * sr + ddy * cp * sr - dy * dp * sp * sr + dy * dr * cp * cr,
-            -ddp * sr - dp * dr * cr + ddy * cp * cr - dy * dp * sp * cr - dy * dr * cp * sr,
-        ]
-    )
-    return rate, acceleration
-
-
-def _rotate(rotation: FloatArray, vector: FloatArray) -> FloatArray:
-    rotated: FloatArray = np.einsum("nij,nj->ni", rotation, vector)
-    return rotated
 
 
 class Walker:
@@ -160,19 +76,28 @@ class Walker:
         return np.where(self.prints.stair[self.rows], 0.7, scale)
 
     def _control_points(self) -> FloatArray:
+        ring, height, angles, back = self._untuned
         prints, rows, now, before, q = self.prints, self.rows, self.now, self.before, self.q
         progress, lateral = prints.progress[rows], prints.lateral[rows]
         share, bump = gait.advance(q, self.skew[now])
         along = progress[before] + (progress[now] - progress[before]) * share
         across = lateral[before] + (lateral[now] - lateral[before]) * share
         across = across + self.side * self.bulge[now] * bump
-        pitch = self._pitch()
-        along = along - gait.FOOT_LENGTH_M * (1.0 - np.cos(np.minimum(pitch, 0.0)))
-        ring = self._ring()
+        along = along - back
         ground = self.route.point(along + ring[:, 0], across + ring[:, 1])
+        return np.column_stack([ground, height, angles])
+
+    @cached_property
+    def _untuned(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """What no tuning changes: ringing (N, 3), height (N,), angles (N, 3), and (N,) m back.
+
+        The last is how far the ball is drawn back as the shoe stands on its heel.
+        """
+        pitch, ring = self._pitch(), self._ring()
+        back = gait.FOOT_LENGTH_M * (1.0 - np.cos(np.minimum(pitch, 0.0)))
         slow = self._roll_over() + self._rest[:, 1]
         height = self._height() + gait.sole_height(pitch) - gait.give(pitch, slow) + ring[:, 2]
-        return np.column_stack([ground, height, self._angles(progress, pitch)])
+        return ring, height, self._angles(self.prints.progress[self.rows], pitch), back
 
     def _pitch(self) -> FloatArray:
         """Return the (N,) pitch of the stride itself in rad, zero while the foot is flat."""

@@ -8,11 +8,15 @@ import numpy as np
 
 from ..core import FloatArray
 from .footprints import HEEL_STRIKE, TOE_OFF, Footprints
-from .motion import ShoeMotion, Walker
+from .motion import Walker
 from .routes import Route
-from .walk_config import WalkConfig
+from .shoe import ShoeMotion
+from .walk_config import Mount, WalkConfig
+
+Motions = tuple[ShoeMotion, ShoeMotion]  # left, right
 
 ROUNDS = 4
+SIDES = (1, -1)  # of the left and the right shoe
 EDGE = 0.02  # share of a stance in which a least distance at its end is none
 
 
@@ -75,16 +79,19 @@ def pass_plan(
     )
 
 
-def tune(walkers: tuple[Walker, Walker], prints: Footprints, wanted: PassPlan) -> None:
-    """Adjust skew and bulge of every swing until the passes come when and as close as wanted."""
+def tuned(walkers: tuple[Walker, Walker], prints: Footprints, wanted: PassPlan) -> Motions:
+    """Return motions whose passes come when and as close as wanted.
+
+    Skew and bulge of every swing are adjusted for that.
+    """
+    motions = (walkers[0].motion(), walkers[1].motion())
     if len(wanted.row) == 0:
-        return
-    lever = walkers[0].config.mount.lever_of
+        return motions
     swing = (HEEL_STRIKE - TOE_OFF) * (prints.flat_s[wanted.row] - prints.heel_off_s[wanted.row])
+    near = np.maximum(wanted.time_s - 0.12, wanted.start), wanted.time_s + 0.12
+    search = Search(motions, walkers[0].config.mount, moments(*near, 49))
     for _ in range(ROUNDS):
-        motions = (walkers[0].motion(), walkers[1].motion())
-        near = np.maximum(wanted.time_s - 0.12, wanted.start), wanted.time_s + 0.12
-        time_s, distance = least(motions, lever(1), lever(-1), *near)
+        time_s, distance = search.least(motions)
         for walker in walkers:
             mine = wanted.free & (prints.side[wanted.row] == walker.side)
             at = np.searchsorted(walker.rows, wanted.row[mine])
@@ -92,26 +99,42 @@ def tune(walkers: tuple[Walker, Walker], prints: Footprints, wanted: PassPlan) -
             near_by = (wanted.distance - distance)[mine]
             walker.skew[at] = np.clip(walker.skew[at] + late, -0.15, 0.15)
             walker.bulge[at] = np.clip(walker.bulge[at] + near_by, -0.08, 0.12)
+        motions = (walkers[0].motion(), walkers[1].motion())
+    return motions
 
 
-def least(
-    motions: tuple[ShoeMotion, ShoeMotion],
-    left_lever: FloatArray,
-    right_lever: FloatArray,
-    start: FloatArray,
-    end: FloatArray,
-    count: int = 49,
-) -> tuple[FloatArray, FloatArray]:
-    """Return moment (M,) s and distance (M,) m of the passes between ``start`` and ``end``.
+class Search:
+    """Finds the passes of motions that turn the shoes alike, one each in the rows of ``grid``."""
 
-    The least of ``count`` moments is refined by the parabola through it and its neighbours.
+    def __init__(self, motions: Motions, mount: Mount, grid: FloatArray) -> None:
+        self._grid = grid
+        self._arms = tuple(
+            shoe.arm(grid.ravel(), mount.lever_of(side))
+            for shoe, side in zip(motions, SIDES, strict=True)
+        )
+
+    def least(self, motions: Motions) -> tuple[FloatArray, FloatArray]:
+        """Return moment (M,) s and distance (M,) m of the passes."""
+        time_s = self._grid.ravel()
+        left, right = (m.ball(time_s) + a for m, a in zip(motions, self._arms, strict=True))
+        return least(self._grid, left - right)
+
+
+def moments(start: FloatArray, end: FloatArray, count: int) -> FloatArray:
+    """Return ``count`` even times (M, count) s between ``start`` and ``end`` (M,)."""
+    grid: FloatArray = start[:, None] + (end - start)[:, None] * np.linspace(0.0, 1.0, count)
+    return grid
+
+
+def least(grid: FloatArray, apart: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return moment (M,) s and distance (M,) m of the least of the vectors ``apart``.
+
+    They hold at the times ``grid`` (M, C), row after row; the least of a row is refined by the
+    parabola through it and its neighbours.
     """
-    grid = start[:, None] + (end - start)[:, None] * np.linspace(0.0, 1.0, count)
-    apart = motions[0].position(grid.ravel(), left_lever)
-    apart -= motions[1].position(grid.ravel(), right_lever)
     squared = np.einsum("ni,ni->n", apart, apart).reshape(grid.shape)
     row = np.arange(len(grid))
-    at = np.clip(np.argmin(squared, axis=1), 1, count - 2)
+    at = np.clip(np.argmin(squared, axis=1), 1, grid.shape[1] - 2)
     low, mid, high = squared[row, at - 1], squared[row, at], squared[row, at + 1]
     bend = np.maximum(low - 2.0 * mid + high, 1e-12)
     shift = np.clip(0.5 * (low - high) / bend, -1.0, 1.0)
@@ -120,17 +143,19 @@ def least(
     return moment, np.sqrt(np.maximum(best, 0.0))
 
 
-def passes(
-    motions: tuple[ShoeMotion, ShoeMotion], config: WalkConfig, prints: Footprints, plan: PassPlan
-) -> Passes:
+def passes(motions: Motions, config: WalkConfig, prints: Footprints, plan: PassPlan) -> Passes:
     """Return the passes as they truly are: the least distance within each stance.
 
     Where the distance only falls or only rises (on some stairs) there is no pass.
     """
     if len(plan.row) == 0:
         return NO_PASSES
-    lever = config.mount.lever_of
-    time_s, distance = least(motions, lever(1), lever(-1), plan.start, plan.end, 161)
+    grid = moments(plan.start, plan.end, 161)
+    left, right = (
+        shoe.position(grid.ravel(), config.mount.lever_of(side))
+        for shoe, side in zip(motions, SIDES, strict=True)
+    )
+    time_s, distance = least(grid, left - right)
     kappa = (time_s - plan.start) / (plan.end - plan.start)
     inside = (kappa > EDGE) & (kappa < 1.0 - EDGE)
     return Passes(time_s[inside], distance[inside], kappa[inside], -prints.side[plan.row[inside]])

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..core import FloatArray, Increments
-from .motion import Kinematics, ShoeMotion
+from .shoe import ShoeMotion
 
 PANEL_S = 0.006
 CHUNK = 20_000
@@ -29,8 +29,7 @@ def sensed(
     if kind is Increments.AVERAGED:
         return interval_means(motion, lever, mounting, edges_s)
     if kind is Increments.SAMPLED:
-        moved = motion.kinematics(edges_s[1:], lever, mounting)
-        return moved.specific_force, moved.angular_rate
+        return motion.sensed(edges_s[1:], lever, mounting)
     return compensated_values(motion, lever, mounting, edges_s)
 
 
@@ -91,22 +90,15 @@ def interval_means(
     """Return mean specific force (N, 3) m/s^2 and rate (N, 3) rad/s between N + 1 ``edges_s``."""
     widest = float(np.diff(edges_s).max())
     offsets, weights = _panels(max(1, int(np.ceil(widest / PANEL_S))))
-    force, rate = [], []
+    force: list[FloatArray] = []
+    rate: list[FloatArray] = []
     for first in range(0, len(edges_s) - 1, CHUNK):
         edges = edges_s[first : first + CHUNK + 1]
         nodes = edges[:-1, None] + np.diff(edges)[:, None] * offsets
-        moved = motion.kinematics(nodes.ravel(), lever, mounting)
-        shape = (*nodes.shape, 3)
-        force.append(np.einsum("k,nki->ni", weights, moved.specific_force.reshape(shape)))
-        rate.append(np.einsum("k,nki->ni", weights, moved.angular_rate.reshape(shape)))
+        values = motion.sensed(nodes.ravel(), lever, mounting)
+        for means, value in zip((force, rate), values, strict=True):
+            means.append(np.einsum("k,nki->ni", weights, value.reshape(*nodes.shape, 3)))
     return np.concatenate(force), np.concatenate(rate)
-
-
-def states(
-    motion: ShoeMotion, lever: FloatArray, mounting: FloatArray, time_s: FloatArray
-) -> Kinematics:
-    """Return the exact motion of the sensor at ``time_s`` (N,) s."""
-    return motion.kinematics(time_s, lever, mounting)
 
 
 def _panels(count: int) -> tuple[FloatArray, FloatArray]:

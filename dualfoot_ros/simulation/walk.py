@@ -8,14 +8,14 @@ import numpy as np
 
 from ..core import FloatArray, Increments, IntArray, PoseSeries, SimulationError
 from .footprints import Footprints, plan
-from .motion import ShoeMotion, Walker
-from .passing import NO_PASSES, Passes, pass_plan, passes, tune
+from .motion import Walker
+from .passing import NO_PASSES, SIDES, Passes, pass_plan, passes, tuned
 from .routes import Route, route
 from .sampling import interval_means, sensed
+from .shoe import ShoeMotion
 from .walk_config import WalkConfig
 
 START_NS = 1_750_000_000_000_000_000
-SIDES = (1, -1)
 SEPARATIONS_M = (0.001, 0.3)  # of two sensors on one shoe
 
 
@@ -58,7 +58,7 @@ class Walk:
         from scipy.spatial.transform import Rotation
 
         place = self.levers[sensor], self.mountings[sensor]
-        moved = self.shoes[sensor].kinematics(time_s, *place)
+        moved = self.shoes[sensor].poses(time_s, *place)
         turned = Rotation.from_matrix(moved.rotation).as_quat()
         return PoseSeries(stamp_ns, moved.position, _continuous(turned), moved.velocity)
 
@@ -80,8 +80,7 @@ def walk(config: WalkConfig | None = None, seed: int = 0) -> Walk:
         Walker(config, line, prints, SIDES[0], rngs["left shoe"]),
         Walker(config, line, prints, SIDES[1], rngs["right shoe"]),
     )
-    tune(walkers, prints, wanted)
-    shoes = (walkers[0].motion(), walkers[1].motion())
+    shoes = tuned(walkers, prints, wanted)
     true_passes = passes(shoes, config, prints, wanted)
     mount = config.mount
     levers = (mount.lever_of(1), mount.lever_of(-1))

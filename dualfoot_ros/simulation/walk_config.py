@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core import STANDARD_GRAVITY, FloatArray, Parameters, parameter
 from .routes import ROUTES
+from .shoe import rotation_zyx
 
 
 @dataclass(frozen=True)
@@ -45,26 +46,6 @@ MOUNTS = {
     "instep": Mount((-0.08, 0.01, 0.09), (8.0, 28.0, 3.0), 0.15),
     "heel": Mount((-0.20, 0.02, 0.06), (3.0, -12.0, 2.0), 0.20),
 }
-
-
-def rotation_zyx(yaw: FloatArray, pitch: FloatArray, roll: FloatArray) -> FloatArray:
-    """Return the (N, 3, 3) rotations Rz(yaw) Ry(pitch) Rx(roll)."""
-    cy, sy = np.cos(yaw), np.sin(yaw)
-    cp, sp = np.cos(pitch), np.sin(pitch)
-    cr, sr = np.cos(roll), np.sin(roll)
-    out = np.empty((len(yaw), 3, 3))
-    out[:, 0, 0], out[:, 0, 1], out[:, 0, 2] = (
-        cy * cp,
-        cy * sp * sr - sy * cr,
-        cy * sp * cr + sy * sr,
-    )
-    out[:, 1, 0], out[:, 1, 1], out[:, 1, 2] = (
-        sy * cp,
-        sy * sp * sr + cy * cr,
-        sy * sp * cr - cy * sr,
-    )
-    out[:, 2, 0], out[:, 2, 1], out[:, 2, 2] = -sp, cp * sr, cp * cr
-    return out
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from dualfoot_ros.core.kernel import layout, strapdown
 from dualfoot_ros.simulation import ROUTES, WalkConfig, grade, simulate, walk
-from dualfoot_ros.simulation.motion import body_rates
+from dualfoot_ros.simulation.shoe import EulerAngles
 
 from .strapdown import GRAVITY, strides
 
@@ -81,13 +81,14 @@ def test_velocity_is_the_derivative_of_position_and_the_rate_that_of_the_attitud
     place = walked.levers[0], walked.mountings[0]
     time_s = np.linspace(2.0, 50.0, 997)
     step = 1e-5
-    here = walked.shoes[0].kinematics(time_s, *place)
-    before = walked.shoes[0].kinematics(time_s - step, *place)
-    after = walked.shoes[0].kinematics(time_s + step, *place)
+    here = walked.shoes[0].poses(time_s, *place)
+    before = walked.shoes[0].poses(time_s - step, *place)
+    after = walked.shoes[0].poses(time_s + step, *place)
+    _, rate = walked.shoes[0].sensed(time_s, *place)
     slope = (after.position - before.position) / (2 * step)
     np.testing.assert_allclose(here.velocity, slope, atol=1e-5)
     turned = Rotation.from_matrix(before.rotation.transpose(0, 2, 1) @ after.rotation)
-    np.testing.assert_allclose(here.angular_rate, turned.as_rotvec() / (2 * step), atol=1e-4)
+    np.testing.assert_allclose(rate, turned.as_rotvec() / (2 * step), atol=1e-4)
 
 
 def test_specific_force_is_acceleration_minus_gravity_in_the_body_frame():
@@ -95,20 +96,20 @@ def test_specific_force_is_acceleration_minus_gravity_in_the_body_frame():
     place = walked.levers[1], walked.mountings[1]
     time_s = np.linspace(2.0, 40.0, 997)
     step = 1e-5
-    here = walked.shoes[1].kinematics(time_s, *place)
-    before = walked.shoes[1].kinematics(time_s - step, *place)
-    after = walked.shoes[1].kinematics(time_s + step, *place)
+    here = walked.shoes[1].poses(time_s, *place)
+    before = walked.shoes[1].poses(time_s - step, *place)
+    after = walked.shoes[1].poses(time_s + step, *place)
+    force, _ = walked.shoes[1].sensed(time_s, *place)
     acceleration = (after.velocity - before.velocity) / (2 * step)
     up = np.array([0.0, 0.0, GRAVITY])
     expected = np.einsum("nji,nj->ni", here.rotation, acceleration + up)
-    np.testing.assert_allclose(here.specific_force, expected, atol=1e-3)
+    np.testing.assert_allclose(force, expected, atol=1e-3)
 
 
 def test_a_turn_about_one_axis_gives_the_rate_about_that_axis():
-    angles, first = np.zeros((1, 3)), np.array([[0.0, 2.0, 0.0]])
-    rate, acceleration = body_rates(angles, first, np.zeros((1, 3)))
-    np.testing.assert_allclose(rate, [[0.0, 2.0, 0.0]])
-    np.testing.assert_allclose(acceleration, 0.0)
+    angles, first = EulerAngles.of(*np.zeros((3, 1))), np.array([[0.0], [2.0], [0.0]])
+    np.testing.assert_allclose(angles.rates(first), first)
+    np.testing.assert_allclose(angles.accelerations(first, np.zeros((3, 1))), 0.0)
 
 
 def test_samples_are_means_over_the_interval_before_their_stamp():

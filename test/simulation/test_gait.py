@@ -74,9 +74,9 @@ def test_the_feet_are_closest_at_the_stated_moments():
 def test_the_left_foot_stays_on_the_left_when_the_feet_pass():
     walked = lap().walk
     time_s = walked.passes.time_s
-    left = walked.shoes[0].kinematics(time_s, walked.levers[0], walked.mountings[0])
+    left = walked.shoes[0].poses(time_s, walked.levers[0], walked.mountings[0])
     right = walked.shoes[1].position(time_s, walked.levers[1])
-    forward = walked.shoes[0].kinematics(time_s, walked.levers[0], np.eye(3)).rotation[:, :, 0]
+    forward = walked.shoes[0].poses(time_s, walked.levers[0], np.eye(3)).rotation[:, :, 0]
     apart = left.position - right
     assert np.all(forward[:, 0] * apart[:, 1] - forward[:, 1] * apart[:, 0] > 0.03)
 

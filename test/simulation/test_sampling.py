@@ -63,9 +63,9 @@ def test_sampled_values_are_those_of_the_motion_at_their_stamps():
     edges_s = edges(100.0)
     force, rate = walked().sensed(1, edges_s, Increments.SAMPLED)
     place = walked().levers[1], walked().mountings[1]
-    moved = walked().shoes[1].kinematics(edges_s[1:], *place)
-    np.testing.assert_array_equal(force, moved.specific_force)
-    np.testing.assert_array_equal(rate, moved.angular_rate)
+    at_stamps = walked().shoes[1].sensed(edges_s[1:], *place)
+    np.testing.assert_array_equal(force, at_stamps[0])
+    np.testing.assert_array_equal(rate, at_stamps[1])
 
 
 def test_averaged_values_are_the_means_of_every_interval():

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...core import FloatArray, Parameters, SimulationError, parameter
-from ..motion import ShoeMotion
+from ..shoe import ShoeMotion
 from ..walk import Walk
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ stay below every point: the linear programme of Moon, Skelly and Towsley, "Estim
 of clock skew from network delay measurements" (INFOCOM 1999), whose solution is an edge of the
 lower convex hull (Zhang, Liu and Xia, "Clock synchronization algorithms for network measurements",
 INFOCOM 2002).  Here the same likelihood is kept whole and not only its maximum
-(:func:`fit_below`).
+(:class:`LinesBelow`).
 
 On a link that delivers at certain events only, as Bluetooth Low Energy does, a delay is the wait
 for the next event, which is shorter than the interval between events unless one failed.  So the
@@ -28,10 +28,21 @@ from ...core import FloatArray
 
 STEEPEST = 0.05  # |skew| that is looked for
 ROUNDS, NODES, DEPTH = 4, 41, 18.0  # quadrature: refinements, nodes, log density kept
+STEPS = np.arange(NODES, dtype=np.float64)
 REACH_S = 0.25  # a bin whose fastest arrival is later than this was stalled, and says no more
 FAILED = 0.1  # share of the events that fail
 EDGES = 16  # of them in a row that are reckoned with
 EVENT_STD_S = 1.0e-4  # of the time of an event
+
+
+def _slopes(first: float, last: float) -> FloatArray:
+    """Return even slopes as np.linspace does, which takes as long as all the rest of a round."""
+    slopes: FloatArray = STEPS * ((last - first) / (NODES - 1)) + first
+    slopes[-1] = last
+    return slopes
+
+
+WIDE = _slopes(-STEEPEST, STEEPEST)
 
 
 @dataclass(frozen=True)
@@ -63,27 +74,39 @@ class Line:
         return math.sqrt(max(variance, 0.0))
 
 
-def fit_below(points: FloatArray, scale_s: float, skew_scale: float) -> Line:
-    """Return mean and spread of the lines below ``points`` (n, 2): time s, offset plus delay s.
+class LinesBelow:
+    """The lines below ``points`` (n, 2): time s, offset plus delay s.
 
     For skew b, with d_i(b) the delays above the highest line of that slope below all points,
 
         log p(b) = -sum_i min(d_i(b), r) / s - log(1 + (b / b0)^2) + const,
 
-    s the mean delay ``scale_s``, b0 the scale of a Cauchy prior ``skew_scale``, and r a reach
-    beyond which a delay says no more: a stall of 20 s would else tilt the line.
+    s the mean delay, b0 the scale of a Cauchy prior, and r a reach beyond which a delay says no
+    more: a stall of 20 s would else tilt the line.
     """
-    center, lever, low, high = _centered(points)
-    first, last = -STEEPEST, STEEPEST
-    for _ in range(ROUNDS):
-        skew = np.linspace(first, last, NODES)
-        delayed = high - skew[:, None] * lever
-        height = delayed.min(axis=1)
-        delay = np.minimum(delayed - height[:, None], REACH_S)
-        log_p = -delay.sum(axis=1) / scale_s + _prior(skew, skew_scale)
-        first, last = _support(skew, log_p)
-    under = scale_s / len(points)  # the height itself is exponential below the highest line
-    return _mean(center, low, skew, log_p, height - under, np.full(NODES, under**2))
+
+    def __init__(self, points: FloatArray) -> None:
+        self._center, self._lever, self._low, self._high = _centered(points)
+        self._wide = self._delays(WIDE)  # every fit begins with the same slopes
+
+    def fit(self, scale_s: float, skew_scale: float) -> Line:
+        """Return mean and spread of the lines for s ``scale_s`` and b0 ``skew_scale``."""
+        skew, (height, delays) = WIDE, self._wide
+        log_p = -delays / scale_s + _prior(skew, skew_scale)
+        for _ in range(ROUNDS - 1):
+            skew = _slopes(*_support(skew, log_p))
+            height, delays = self._delays(skew)
+            log_p = -delays / scale_s + _prior(skew, skew_scale)
+        under = scale_s / len(self._lever)  # the height is exponential below the highest line
+        spread = np.full(NODES, under**2)
+        return _mean(self._center, self._low, skew, log_p, height - under, spread)
+
+    def _delays(self, skew: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return height and sum of the delays (m,) of the highest lines of slopes (m,)."""
+        delayed = self._high - skew[:, None] * self._lever
+        height = np.minimum.reduce(delayed, axis=1)
+        delayed -= height[:, None]
+        return height, np.add.reduce(np.minimum(delayed, REACH_S, out=delayed), axis=1)
 
 
 def fit_between(
@@ -100,7 +123,7 @@ def fit_between(
     wide = 6.0 * math.sqrt(near.skew_var) + 2.0 * interval_s / max(float(np.ptp(lever)), 1.0)
     first, last = near.skew - wide, near.skew + wide
     for _ in range(ROUNDS):
-        skew = np.linspace(first, last, NODES)
+        skew = _slopes(first, last)
         top = (high - skew[:, None] * lever).min(axis=1)
         mass, height, square = _strips(top, least - skew[:, None] * wait_lever)
         log_p = np.log(mass) + _prior(skew, skew_scale)
@@ -140,8 +163,9 @@ def _prior(skew: FloatArray, scale: float) -> FloatArray:
 
 def _support(skew: FloatArray, log_p: FloatArray) -> tuple[float, float]:
     """Return the skews between which the density is not negligible."""
-    good = np.flatnonzero(log_p > log_p.max() - DEPTH)
-    return float(skew[max(good[0] - 1, 0)]), float(skew[min(good[-1] + 1, len(skew) - 1)])
+    good = log_p > np.maximum.reduce(log_p) - DEPTH
+    first, last = int(good.argmax()), len(good) - 1 - int(good[::-1].argmax())
+    return float(skew[max(first - 1, 0)]), float(skew[min(last + 1, len(skew) - 1)])
 
 
 def _mean(
@@ -153,8 +177,8 @@ def _mean(
     height_var: FloatArray,
 ) -> Line:
     """Return the line that is the mean over the slopes ``skew`` (m,) of the given heights."""
-    p = np.exp(log_p - log_p.max())
-    p /= p.sum()
+    p = np.exp(log_p - np.maximum.reduce(log_p))
+    p /= np.add.reduce(p)
     mean_skew, mean_height = float(p @ skew), float(p @ height)
     d_skew, d_height = skew - mean_skew, height - mean_height
     return Line(

@@ -80,10 +80,10 @@ def _missing_before(time: FloatArray, interval: float) -> IntArray:
         if not LEAST_WINDOW <= at <= len(time) - LEAST_WINDOW:
             continue
         before, behind = late[max(0, at - WINDOW) : at], late[at : at + WINDOW]
-        moved = min(
-            float(np.min(behind) - np.min(before)), float(np.median(behind) - np.median(before))
-        )
-        lost = int(moved / interval + 1.0 - SURE)
+        lost = int((np.min(behind) - np.min(before)) / interval + 1.0 - SURE)
+        if lost > 0:
+            middle = np.median(behind) - np.median(before)
+            lost = min(lost, int(middle / interval + 1.0 - SURE))
         if lost > 0:
             missing[at:] += lost
             late[at:] -= lost * interval

@@ -30,7 +30,7 @@ def stand_s(plain):
 
 def at(walked, foot, time_s):
     """Return the motion of a shoe at a time."""
-    return walked.shoes[foot].kinematics(np.array([time_s]), NOWHERE, FORWARD)
+    return walked.shoes[foot].poses(np.array([time_s]), NOWHERE, FORWARD)
 
 
 def way(moved, plain, foot, time_s):
@@ -49,9 +49,9 @@ def test_a_lift_accelerates_as_it_is_told(plain, stand_s):
     config = MovingFloorConfig(kind="lift", way=-4.0, speed=1.5, acceleration=1.2)
     moved = on_moving_floor(plain, config)
     time_s = np.arange(*stand_s, 0.01)
-    force = moved.shoes[0].kinematics(time_s, NOWHERE, FORWARD)
-    still = plain.shoes[0].kinematics(time_s, NOWHERE, FORWARD)
-    gained = force.velocity[:, 2] - still.velocity[:, 2]
+    carried = moved.shoes[0].poses(time_s, NOWHERE, FORWARD)
+    still = plain.shoes[0].poses(time_s, NOWHERE, FORWARD)
+    gained = carried.velocity[:, 2] - still.velocity[:, 2]
     assert gained.min() == pytest.approx(-1.5, abs=1e-3)
     assert np.abs(np.gradient(gained, 0.01)).max() == pytest.approx(1.2, abs=0.02)
 

@@ -76,8 +76,10 @@ def in_step(seed):
     """
     rng = np.random.default_rng(seed)
     intervals = int(rng.integers(4, 15)) / 2.0
-    link = BleLinkConfig(interval=0.1 / intervals * (1.0 + float(rng.normal(0.0, 1e-3))))
-    true, device, arrived = recording(float(rng.uniform(-200.0, 200.0)), 5.0, link=link, seed=seed)
+    link = BleLinkConfig(interval=0.1 / intervals * (1.0 + float(rng.normal(0.0, 1e-3))), burst=5)
+    true, device, arrived = recording(
+        float(rng.uniform(-200.0, 200.0)), 5.0, 50.0, link=link, seed=seed
+    )
     clock = DeviceClock()
     follow(clock, device, arrived)
     error_s = 1e-9 * (clock.state.offset_ns - int(true[-1] - device[-1])) - link.least
@@ -95,7 +97,7 @@ def test_in_step_with_the_link_the_uncertainty_contains_the_error():
     assert std.max() > 0.005  # for some there is no knowing, as the next test shows
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(
     drift=st.floats(-9000.0, 9000.0),
     interval=st.floats(0.015, 0.05),
@@ -118,7 +120,7 @@ def unshifted():
     return device, arrived, follow(DeviceClock(), device, arrived)
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=8, deadline=None)
 @given(shift=st.integers(-(10**18), 10**18), device_shift=st.integers(-(10**18), 10**18))
 def test_a_shift_of_either_clock_shifts_the_result_and_nothing_else(
     unshifted, shift, device_shift
@@ -173,7 +175,7 @@ def test_repeated_samples_change_nothing():
     assert clock.epoch == 0
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(
     wrong=st.lists(st.integers(1500, 3900), min_size=1, max_size=8, unique=True),
     by=st.floats(0.05, 5000.0),

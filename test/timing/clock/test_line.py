@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dualfoot_ros.timing.clock.line import EVENT_STD_S, FAILED, STEEPEST, fit_below, fit_between
+from dualfoot_ros.timing.clock.line import EVENT_STD_S, FAILED, STEEPEST, LinesBelow, fit_between
 
 INTERVAL = 0.04
 
@@ -31,7 +31,7 @@ def waits(skew=0.0, height=0.0, count=60, seed=0, failed=0.1):
     seed=st.integers(0, 10_000),
 )
 def test_offset_and_skew_of_exponential_delays_are_found(skew, height, seed):
-    line = fit_below(cloud(skew, height, seed=seed), 0.005, 1e-4)
+    line = LinesBelow(cloud(skew, height, seed=seed)).fit(0.005, 1e-4)
     assert line.skew == pytest.approx(skew, abs=6e-5)
     assert line.at(60.0) == pytest.approx(height + skew * 60.0, abs=1.5e-3)
 
@@ -39,7 +39,7 @@ def test_offset_and_skew_of_exponential_delays_are_found(skew, height, seed):
 def test_the_uncertainty_is_the_scatter_of_the_estimates():
     scaled = []
     for seed in range(200):
-        line = fit_below(cloud(3e-4, 0.1, seed=seed), 0.005, 1e-4)
+        line = LinesBelow(cloud(3e-4, 0.1, seed=seed)).fit(0.005, 1e-4)
         scaled.append((line.at(60.0) - 0.1 - 3e-4 * 60.0) / line.std_at(60.0))
     assert abs(np.mean(scaled)) < 0.25
     assert 0.8 < np.std(scaled) < 1.25
@@ -49,7 +49,7 @@ def test_between_its_uncertainty_is_the_scatter_too():
     scaled = []
     for seed in range(200):
         points = waits(3e-4, 0.1, seed=seed)
-        line = fit_between(points, points, INTERVAL, fit_below(points, 0.02, 1e-3), 1e-3)
+        line = fit_between(points, points, INTERVAL, LinesBelow(points).fit(0.02, 1e-3), 1e-3)
         scaled.append((line.at(30.0) - 0.1 - 3e-4 * 30.0) / line.std_at(30.0))
     assert abs(np.mean(scaled)) < 0.25
     assert 0.8 < np.std(scaled) < 1.25
@@ -58,7 +58,7 @@ def test_between_its_uncertainty_is_the_scatter_too():
 @pytest.mark.parametrize("seed", range(6))
 def test_between_equals_the_sum_over_a_fine_grid_of_lines(seed):
     points = waits(2e-4, 0.01, count=12, seed=seed)
-    line = fit_between(points, points, INTERVAL, fit_below(points, 0.02, 1e-3), 1e-3)
+    line = fit_between(points, points, INTERVAL, LinesBelow(points).fit(0.02, 1e-3), 1e-3)
     center = points[:, 0].mean()
     skew = np.linspace(line.skew - 0.012, line.skew + 0.012, 1601)
     height = np.linspace(-0.08, 0.08, 1601)[:, None] + line.height_s
@@ -78,7 +78,7 @@ def test_between_equals_the_sum_over_a_fine_grid_of_lines(seed):
 def test_in_step_an_interval_of_lines_is_as_likely():
     """Waits that never change say no more than that the clock is within an interval."""
     points = np.column_stack([np.arange(0.0, 30.0, 0.5), np.full(60, 0.3)])
-    line = fit_between(points, points, INTERVAL, fit_below(points, 0.005, 1e-6), 1e-6)
+    line = fit_between(points, points, INTERVAL, LinesBelow(points).fit(0.005, 1e-6), 1e-6)
     assert line.at(15.0) == pytest.approx(0.3 - INTERVAL / 2.0, abs=0.001)
     assert line.std_at(15.0) == pytest.approx(INTERVAL / 12.0**0.5, rel=0.05)
 
@@ -95,7 +95,7 @@ def test_a_shift_and_a_tilt_of_all_points_move_the_line_by_just_that(shift, tilt
 
 
 def _below(points):
-    return fit_below(points, 0.005, 1.0)
+    return LinesBelow(points).fit(0.005, 1.0)
 
 
 def _between(points):
@@ -105,6 +105,6 @@ def _between(points):
 def test_a_stall_tilts_no_line():
     points = cloud(1e-4, count=80)
     stalled = np.column_stack([np.arange(40.0, 60.0, 0.5), np.arange(20.0, 0.0, -0.5)])
-    line = fit_below(np.concatenate([points, stalled]), 0.005, 1e-4)
+    line = LinesBelow(np.concatenate([points, stalled])).fit(0.005, 1e-4)
     assert abs(line.skew) < STEEPEST / 100.0
     assert line.skew == pytest.approx(1e-4, abs=6e-5)

@@ -42,10 +42,14 @@ def first_seconds():
 def first_second_ms(drift, link, seed):
     """Return the errors of the first second that is stamped."""
     true, device, arrived = recording(drift, 900.0, RATE, 12.0, link, seed)
-    found = follow(DeviceClock(), device, arrived)
+    clock, found = DeviceClock(), []
+    while len(found) < 2 * round(RATE) or found[-2 * round(RATE)] is None:
+        more = slice(len(found), len(found) + round(RATE))
+        assert more.start < len(true)
+        found += follow(clock, device[more], arrived[more])
     first = begin(found)
     assert None not in found[first:]
-    return errors_ms(found, true, link)[first : first + round(RATE)]
+    return errors_ms(found, true[: len(found)], link)[first : first + round(RATE)]
 
 
 def test_the_first_stamps_over_bluetooth_are_late_by_an_interval_at_most_and_hardly_ever_early():
@@ -64,7 +68,7 @@ def test_the_first_second_over_bluetooth_is_right_to_a_few_milliseconds_on_most_
     assert np.quantile(worst, 0.9) < 12.0
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(drift=drifts, jitter=st.floats(0.0, 0.002), seed=seeds)
 def test_a_wired_link_loses_less_than_three_seconds_and_starts_right(drift, jitter, seed):
     true, device, _ = recording(drift, duration=6.0, rate=RATE)
@@ -77,7 +81,7 @@ def test_a_wired_link_loses_less_than_three_seconds_and_starts_right(drift, jitt
     assert np.abs(error).max() < 5.0
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(drift=drifts, seed=seeds)
 def test_a_bad_link_is_not_waited_for_for_ever(drift, seed):
     link = BleLinkConfig(burst=20, failure=0.3, stall_period=1.0)
@@ -88,7 +92,7 @@ def test_a_bad_link_is_not_waited_for_for_ever(drift, seed):
     assert clock.state.phase in ("acquiring", "tracking")
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(
     drift=st.floats(12_000.0, 60_000.0),
     sign=st.sampled_from([-1.0, 1.0]),

@@ -22,7 +22,7 @@ def errors_ms(found, truth):
     return np.abs(off - np.median(off))
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(st.integers(0, 10**6), st.sampled_from([60.0, 100.0, 200.0]), st.floats(0.0, 0.006))
 def test_delays_of_some_milliseconds_go_and_the_rate_is_that_of_the_device(seed, rate, scale_s):
     truth = true_times(rate, 1200, skew_ppm=80.0)

@@ -122,7 +122,8 @@ class PairStream:
             dt_ns = self.gate.interval(stamp, values, session.holes.longest_ns)
             if dt_ns:
                 self.counters["pairs"] += 1
-                return self._run(session, stamp, dt_ns, values)
+                update = session.step(stamp, dt_ns * 1e-9, values)
+                return self._not_finite(stamp) if update is None else update
         refused = self.gate.refusal(stamp, values)
         jumped = refused is Jump.CLOCK_SET
         if refused is Jump.BEGINS_ANEW:
@@ -197,23 +198,13 @@ class PairStream:
             dt_ns = holes.filled_ns
         if self.pose is not None:
             before = (*before, *self._apply_pose(session, stamp))
-        return self._run(session, stamp, dt_ns, values, before)
+        update = session.step(stamp, dt_ns * 1e-9, values, before)
+        return self._not_finite(stamp) if update is None else update
 
-    def _run(
-        self,
-        session: Session,
-        stamp: int,
-        dt_ns: int,
-        values: FloatArray,
-        before: tuple[Event, ...] = (),
-    ) -> Update:
-        """Run one epoch; return its update, with the events ``before`` it."""
-        told, found = session.step(stamp, dt_ns * 1e-9, values)
-        if told is None:  # the last guard: nothing that is no number ever leaves
-            self.reset(stamp, Reason.NOT_FINITE)
-            return Update(stamp, "aligning", events=self._take_pending())
-        events = (*before, *found) if found else before
-        return Update(stamp, session.phase, None, told, events, session.facing)
+    def _not_finite(self, stamp: int) -> Update:
+        """Begin anew after an epoch that was no numbers: the last guard."""
+        self.reset(stamp, Reason.NOT_FINITE)
+        return Update(stamp, "aligning", events=self._take_pending())
 
     def _apply_pose(self, session: Session, stamp: int) -> list[Event]:
         if self.pose is None or not session.can_set_pose():

@@ -68,17 +68,18 @@ class Carriage:
 
     def landed(self, foot: int, touchdown: Touchdown, *, heading_known: bool) -> list[Event]:
         """Attend to a stance of ``foot`` that has been confirmed."""
-        now = self._gait.stamp(self._space.epoch)
-        if self.kind in (FloorKind.LIFT, FloorKind.VEHICLE):
+        if self.kind is FloorKind.LIFT or self.kind is FloorKind.VEHICLE:
             if self._ride.landed():
                 return []
             self._fix()
-            return [self._end(now)]
+            return [self._end(self._gait.stamp(self._space.epoch))]
         if not heading_known:  # the axes of the feet are not the same
             return []
         step = self._boarding.landed(foot, touchdown)
         self._doubt()
-        return [] if step is None else [self._change(step, now)]
+        if step is None:
+            return []
+        return [self._change(step, self._gait.stamp(self._space.epoch))]
 
     def constrained(self, outcome: Outcome) -> None:
         """Take note of a constraint; one that does not fit moves the feet as a floor would."""

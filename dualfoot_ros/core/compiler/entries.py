@@ -32,7 +32,7 @@ _W, _N, _ROWS, _I, _X = Kind.REALS, Kind.INTEGERS, Kind.ROWS, Kind.INTEGER, Kind
 
 ENTRY_KINDS = {
     "advance": Entry((_W, _N, _W, _ROWS, _I, _I, _ROWS), _I),
-    "step": Entry((_W, _N, _W, _ROWS, _ROWS), _I),
+    "step": Entry((_W, _N, _N, _I, _X, _W, _ROWS), _I),
     "rerun": Entry((_W, _N, _I, _I)),
     "restore": Entry((_W, _N, _I)),
     "set_flags": Entry((_N, _I, _I, _I, _I)),

@@ -43,8 +43,9 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     told[0, : lay.OUT] = out[0]
     numbers = functions["tell"](w, told)
     yield np.append(told, numbers).tobytes()
-    done = functions["step"](w, n, np.full(1, 0.01), samples, told)
-    yield np.append(told, done).tobytes()
+    stamps = np.zeros(RING, dtype=np.int64)
+    done = functions["step"](w, n, stamps, 7, 0.01, samples[0], told)
+    yield np.append(told, done).tobytes() + stamps.tobytes()
     yield w.tobytes() + n.tobytes() + out.tobytes()
     for kind in (None, lay.KNOW_ALL, lay.KNOW_COMMON, lay.KEEP_PLACE, lay.KNOW_NOTHING):
         yield _updated(functions, w, kind)

@@ -137,53 +137,70 @@ def rerun(w, n, first, last):
         filter_epoch(w, n, epoch, coupled)
 
 
+def begin(w, n, dt):
+    """Begin the next epoch, ``dt`` s after the one before; return where its sample belongs."""
+    ring = n[N_RING]
+    epoch = n[N_EPOCH] + 1
+    n[N_EPOCH] = epoch
+    if epoch - n[N_OLDEST] >= ring:
+        n[N_OLDEST] = epoch - ring + 1
+    o = RINGS + SAMPLE * (epoch % ring)
+    w[o] = dt
+    return o
+
+
+def run_newest(w, n, o, coupled):
+    """Run the newest epoch, whose sample is at ``o``, and set n[N_NOTICE]."""
+    epoch = n[N_EPOCH]
+    save(w, n, epoch)  # the state before the epoch: where a roll-back begins
+    presence = watch_presence(w, n, 0, o + 1) | watch_presence(w, n, 1, o + 7)
+    left, left_notice = detect(w, n, 0)
+    right, right_notice = detect(w, n, 1)
+    flags = 0
+    if left:
+        flags = 1 + FLAG_STILL * stands(n, 0)
+    if right:
+        flags += 2 + 2 * FLAG_STILL * stands(n, 1)
+    n[N_FLAGS + epoch % n[N_RING]] = flags
+    n[N_NOTICE] = left_notice | (right_notice << NOTICE_SHIFT) | presence
+    for foot in range(2):
+        if collect_stand(w, foot, (flags // FLAG_STILL >> foot) & 1, o):
+            n[N_NOTICE] = n[N_NOTICE] | (NOTICE_STOOD << foot)
+    filter_epoch(w, n, epoch, coupled)
+    if watch_floor(w, n, w[o]):
+        n[N_NOTICE] = n[N_NOTICE] | NOTICE_FLOOR
+    if squared_distance(w) > w[C_WATCH]:
+        n[N_NOTICE] = n[N_NOTICE] | NOTICE_WATCH
+
+
 def advance(w, n, dts, samples, start, stop, out):
     """Run epochs ``start..stop-1`` of ``samples`` (N, 12) with intervals ``dts`` (N,) s.
 
     Each writes its row of ``out`` (N, OUT).  Returns the index after the last epoch that was run:
     ``stop``, or earlier when an epoch set n[N_NOTICE].
     """
-    ring = n[N_RING]
     coupled = coupled_feet(w)
     for k in range(start, stop):
-        epoch = n[N_EPOCH] + 1
-        n[N_EPOCH] = epoch
-        if epoch - n[N_OLDEST] >= ring:
-            n[N_OLDEST] = epoch - ring + 1
-        i = epoch % ring
-        o = RINGS + SAMPLE * i
-        w[o] = dts[k]
+        o = begin(w, n, dts[k])
         for j in range(12):
             w[o + 1 + j] = samples[k, j]
-        save(w, n, epoch)  # the state before the epoch: where a roll-back begins
-        presence = watch_presence(w, n, 0, o + 1) | watch_presence(w, n, 1, o + 7)
-        left, left_notice = detect(w, n, 0)
-        right, right_notice = detect(w, n, 1)
-        flags = 0
-        if left:
-            flags = 1 + FLAG_STILL * stands(n, 0)
-        if right:
-            flags += 2 + 2 * FLAG_STILL * stands(n, 1)
-        n[N_FLAGS + i] = flags
-        n[N_NOTICE] = left_notice | (right_notice << NOTICE_SHIFT) | presence
-        for foot in range(2):
-            if collect_stand(w, foot, (flags // FLAG_STILL >> foot) & 1, o):
-                n[N_NOTICE] = n[N_NOTICE] | (NOTICE_STOOD << foot)
-        filter_epoch(w, n, epoch, coupled)
-        if watch_floor(w, n, dts[k]):
-            n[N_NOTICE] = n[N_NOTICE] | NOTICE_FLOOR
-        if squared_distance(w) > w[C_WATCH]:
-            n[N_NOTICE] = n[N_NOTICE] | NOTICE_WATCH
+        run_newest(w, n, o, coupled)
         emit(w, n, out, k)
         if n[N_NOTICE] != 0:
             return k + 1
     return stop
 
 
-def step(w, n, dts, samples, told):
-    """Run one epoch as `advance` does, and write all that is told of it to ``told`` (1, TOLD).
+def step(w, n, stamps, stamp, dt, sample, told):
+    """Run the epoch of one ``sample`` (12,), and write all that is told of it to ``told``.
 
-    Returns whether that is the end of it: all is numbers, and no notice is set.
+    Its ``stamp`` is kept in the ring ``stamps``.  Returns whether that is the end of it: all of
+    ``told`` (1, TOLD) is numbers, and no notice is set.
     """
-    advance(w, n, dts, samples, 0, 1, told)
+    o = begin(w, n, dt)
+    stamps[n[N_EPOCH] % n[N_RING]] = stamp
+    for j in range(12):
+        w[o + 1 + j] = sample[j]
+    run_newest(w, n, o, coupled_feet(w))
+    emit(w, n, told, 0)
     return tell(w, told) and n[N_NOTICE] == 0

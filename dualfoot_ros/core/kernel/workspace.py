@@ -39,10 +39,6 @@ class Workspace:
         """Oldest epoch to which the filter can be rolled back."""
         return self.n.item(lay.N_OLDEST)
 
-    def keep_stamp(self, newest: int) -> None:
-        """Keep the stamp of the newest epoch, ns."""
-        self.stamps[self.n.item(lay.N_EPOCH) % self.ring] = newest
-
     def keep_stamps(self, newest: IntArray) -> None:
         """Keep the stamps (N,) ns of the newest N epochs, as far as the ring holds them."""
         newest = newest[-self.ring :]

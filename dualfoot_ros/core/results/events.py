@@ -12,6 +12,7 @@ from ..samples.series import FloatArray
 from .payloads import NO_DETAILS, Payload, YawTurn, named_values
 
 FEET = ("left", "right")
+NO_INNOVATION, NO_COVARIANCE = np.empty(0), np.empty((0, 0))  # one each for all events
 
 
 class EventKind(StrEnum):
@@ -56,8 +57,8 @@ class Event:
     stamp_ns: int
     foot: str
     detected_ns: int
-    innovation: FloatArray = field(default_factory=lambda: np.empty(0))
-    S: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
+    innovation: FloatArray = field(default_factory=lambda: NO_INNOVATION)
+    S: FloatArray = field(default_factory=lambda: NO_COVARIANCE)
     nis: float = float("nan")
     accepted: bool = True
     payload: Payload = NO_DETAILS

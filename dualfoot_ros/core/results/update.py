@@ -110,8 +110,8 @@ class Update:
     ) -> None:
         """Keep what was computed.
 
-        ``told`` is what `Session.step` gives, ``facing`` what the headings of the feet follow
-        from.  Nothing is taken apart here: of most updates little is asked.
+        ``told`` (1, TOLD) is what the kernel tells, ``facing`` what the headings of the feet
+        follow from.  Nothing is taken apart here: of most updates little is asked.
         """
         self.stamp_ns, self.phase, self.refused, self._told = stamp_ns, phase, refused, told
         self._noted, self.facing = events, facing

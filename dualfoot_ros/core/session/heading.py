@@ -136,18 +136,15 @@ class Headings:
 
     def facing(self) -> Facing:
         """Return what the headings of both feet follow from until their next stance."""
-        known = [
-            reference or (self._levelled[foot], self.forward)
-            for foot, reference in enumerate(self._reference)
-        ]
-        levers = [self._space.w[at : at + 3].copy() for at in map(lever_start, range(2))]
-        return Facing(
-            (known[0][0], known[1][0]),
-            (known[0][1], known[1][1]),
-            (levers[0], levers[1]),
-            self.present,
-            all(self.knows_way(foot) or self.absent[foot] for foot in range(2)),
-        )
+        left = self._reference[0] or (self._levelled[0], self.forward)
+        right = self._reference[1] or (self._levelled[1], self.forward)
+        levers = (self._lever(0), self._lever(1))
+        known = self.known or all(self.knows_way(foot) or self.absent[foot] for foot in range(2))
+        return Facing((left[0], right[0]), (left[1], right[1]), levers, self.present, known)
+
+    def _lever(self, foot: int) -> FloatArray:
+        start = lever_start(foot)
+        return self._space.w[start : start + 3].copy()
 
     def levelled(self) -> None:
         """Take note that both feet have been levelled: they face forward as they are."""

@@ -6,13 +6,14 @@ from collections.abc import Callable
 
 from ..kernel import layout as lay
 from ..results.events import FEET, Event, EventKind
+from ..results.update import Update
 from ..samples.pair_gate import MAX_GAP_NS
 from ..samples.series import FloatArray
 from .absence import Presence
 from .notices import Found
 from .walk_state import WalkState
 
-Step = Callable[[int, float, FloatArray], tuple[FloatArray | None, Found]]
+Step = Callable[[int, float, FloatArray], Update | None]
 LONGEST_STEP = 1.7  # of the nominal interval: longer ones are holes
 
 
@@ -26,11 +27,7 @@ class Holes:
     filled_ns : interval that remains to be run after `fill`
     """
 
-    def __init__(
-        self,
-        walk: WalkState,
-        step: Callable[[int, float, FloatArray], tuple[FloatArray | None, Found]],
-    ) -> None:
+    def __init__(self, walk: WalkState, step: Step) -> None:
         self._walk, self._step = walk, step
         self._rate_hz = walk.space.rate_hz
         self.period_ns = round(1e9 / self._rate_hz)
@@ -52,7 +49,8 @@ class Holes:
         for k in range(1, count):
             between = before + (values - before) * (k / count)
             at = stamp - (count - k) * self.filled_ns
-            found += self._step(at, self.filled_ns * 1e-9, between)[1]
+            update = self._step(at, self.filled_ns * 1e-9, between)
+            found += () if update is None else update.announced
         if count > 1:
             space.blur(dt_ns * 1e-9 - 1.0 / self._rate_hz, values - before)
         return found

@@ -139,11 +139,12 @@ class Notices:
         """
         walk = self._walk
         known = walk.headings.known
-        joined = walk.absences.of[foot] is Presence.JOINED
-        aids = [each for each in walk.aids if joined and (known or not each.needs_heading)]
+        asked: list[Method] = []
+        if walk.aids and walk.absences.of[foot] is Presence.JOINED:
+            asked += [each for each in walk.aids if known or not each.needs_heading]
         if walk.absences.none and (known or not walk.method.needs_heading):
-            aids.append(walk.method)
-        return aids
+            asked.append(walk.method)
+        return asked
 
     def _stance_ended(self, foot: int) -> Found:
         walk = self._walk

@@ -15,12 +15,15 @@ from ..kernel import layout as lay
 from ..results.events import FEET, Event, EventKind
 from ..results.facing import Facing
 from ..results.payloads import Levelled
+from ..results.update import Update
 from ..samples.increments import Increments
 from ..samples.series import FloatArray, IntArray
 from .given_pose import GivenPose, apply_covariance
 from .holes import Holes
 from .notices import Found, Notices
 from .walk_state import WalkState
+
+TOLD = (1, lay.TOLD)  # shape of what is told of one epoch
 
 
 class Session:
@@ -46,7 +49,7 @@ class Session:
         self._walk = walk = WalkState(config, start.rate_hz, aids, increments)
         self._notices = Notices(walk, stood_first=not start.waiting)
         self.holes = Holes(walk, self.step)
-        self._dt, self._values = np.empty(1), np.empty((1, 12))
+        self._sample = np.empty(12)
         self.space, self.rate_hz = walk.space, start.rate_hz
         walk.use(engine)
         self._level()
@@ -102,26 +105,25 @@ class Session:
         )
         return Event(EventKind.ALIGNED, stamp, "both", stamp, payload=levelled)
 
-    def step(self, stamp: int, dt_s: float, values: FloatArray) -> tuple[FloatArray | None, Found]:
-        """Run one epoch; return all that is told of it (1, TOLD) and the events it brought.
+    def step(
+        self, stamp: int, dt_s: float, values: FloatArray, before: tuple[Event, ...] = ()
+    ) -> Update | None:
+        """Run one epoch; return its update, with the events ``before`` it.
 
-        None is told when its row is no numbers.
+        None when it is no numbers: nothing of that may leave.
         """
         walk, space = self._walk, self.space
         if walk.phase == "standing":
             self._refine(stamp, values)
-        w, n, engine = space.w, space.n, walk.engine
-        self._dt[0], self._values[0] = dt_s, values
-        told = np.empty((1, lay.TOLD))
-        done = engine.step(w, n, self._dt, self._values, told)
-        space.keep_stamp(stamp)
-        if done:
-            return told, []
-        found: Found = []
-        if n[lay.N_NOTICE]:
-            found = self._notices.attend()
-            walk.engine.emit(w, n, told, 0)
-        return (told if walk.engine.tell(w, told) else None), found
+        w, n, sample, told = space.w, space.n, self._sample, np.empty(TOLD)
+        sample[...] = values
+        if not walk.engine.step(w, n, space.stamps, stamp, dt_s, sample, told):
+            if n[lay.N_NOTICE]:
+                before = (*before, *self._notices.attend())
+                walk.engine.emit(w, n, told, 0)
+            if not walk.engine.tell(w, told):
+                return None
+        return Update(stamp, walk.phase, None, told, before, walk.facing)
 
     def _refine(self, stamp: int, values: FloatArray) -> None:
         """Level anew when the stand has gone on for a window's length more."""

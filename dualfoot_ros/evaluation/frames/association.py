@@ -15,8 +15,9 @@ from ...core import (
     stance_bounds,
     stance_middles,
 )
+from .between_poses import GreatCircles, HermiteSpline
 
-TOGETHER = 1 << 14  # stamps at once, for which a slerp needs some megabytes
+TOGETHER = 1 << 12  # stamps at once: what they need stays in the cache of the processor
 
 
 def seconds(stamp_ns: IntArray, origin_ns: int) -> FloatArray:
@@ -30,21 +31,31 @@ def truth_at(stamp_ns: IntArray, truth: PoseSeries) -> PoseSeries:
     Positions follow cubic Hermite splines where velocities are known and straight lines where
     not; attitudes follow great circles (slerp).
     """
-    from scipy.interpolate import CubicHermiteSpline
-    from scipy.spatial.transform import Rotation, Slerp
-
     origin = int(truth.stamp_ns[0])
     known, wanted = seconds(truth.stamp_ns, origin), seconds(stamp_ns, origin)
-    slerp = Slerp(known, Rotation.from_quat(truth.quaternion))
-    attitude = np.empty((len(wanted), 4))
+    _check_poses(known, truth.quaternion)
+    attitude, position = np.empty((len(wanted), 4)), np.empty((len(wanted), 3))
+    circles, velocity, spline = GreatCircles(known, truth.quaternion), None, None
+    if truth.velocity is not None:
+        velocity = np.empty((len(wanted), 3))
+        spline = HermiteSpline(known, truth.position, truth.velocity)
     for start in range(0, len(wanted), TOGETHER):
         part = slice(start, start + TOGETHER)
-        attitude[part] = slerp(wanted[part]).as_quat()
-    if truth.velocity is None:
-        position = np.column_stack([np.interp(wanted, known, p) for p in truth.position.T])
-        return PoseSeries(stamp_ns, position, attitude)
-    spline = CubicHermiteSpline(known, truth.position, truth.velocity)
-    return PoseSeries(stamp_ns, spline(wanted), attitude, spline(wanted, 1))
+        attitude[part] = circles.at(wanted[part])
+        if velocity is None or spline is None:
+            for axis, places in enumerate(truth.position.T):
+                position[part, axis] = np.interp(wanted[part], known, places)
+        else:
+            position[part], velocity[part] = spline.at(wanted[part])
+    return PoseSeries(stamp_ns, position, attitude, velocity)
+
+
+def _check_poses(known: FloatArray, quaternions: FloatArray) -> None:
+    """Refuse poses (K,) that are not in order, or are no attitudes."""
+    if not (np.diff(known) > 0.0).all():
+        raise EvaluationError("the stamps of the truth do not increase; record it anew")
+    if not quaternions.any(axis=1).all():
+        raise EvaluationError("the truth has quaternions of length 0, which are no attitudes")
 
 
 def within(stamp_ns: IntArray, truth: PoseSeries) -> np.ndarray:

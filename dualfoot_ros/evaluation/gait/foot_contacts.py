@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import FloatArray, FootTrajectory, quaternion_matrix
+from ...core import FloatArray, FootTrajectory
 from ..frames.association import Footfalls, seconds
 
 LEAST_STRIDE_M = 0.3
@@ -59,18 +59,38 @@ def find_contacts(track: FootTrajectory) -> FootContacts:
         return found
     time = seconds(track.stamp_ns, int(track.stamp_ns[0]))
     pitch = inclination(track, forward)
-    for k in range(len(falls) - 1):
-        first, last = int(falls.bounds[k, 1]) - 1, int(falls.bounds[k + 1, 0])
-        if last - first < LEAST_SWING:
-            continue
-        at = falls.middle[k : k + 2]
-        flat = np.interp(time[first : last + 1], time[at], pitch[at])
-        swing = pitch[first : last + 1] - flat
-        off, on = _moments(time[first : last + 1], swing)
-        found.lift_off_s[k], found.contact_s[k + 1] = off, on
-        angles = np.degrees(np.interp([off, on], time[first : last + 1], swing))
-        found.lift_off_deg[k], found.contact_deg[k + 1] = angles
+    toes = _Toes(time, pitch - np.interp(time, time[falls.middle], pitch[falls.middle]))
+    swings = zip(falls.bounds[:-1, 1].tolist(), falls.bounds[1:, 0].tolist(), strict=True)
+    for k, (begin, last) in enumerate(swings):
+        first = begin - 1
+        if last - first >= LEAST_SWING:
+            found.lift_off_s[k], found.contact_s[k + 1] = _moments(*toes.swing(first, last))
+    found.lift_off_deg[:] = toes.degrees_at(found.lift_off_s)
+    found.contact_deg[:] = toes.degrees_at(found.contact_s)
     return found
+
+
+class _Toes:
+    """Inclination of the sole against the flat foot, rad, and its rate, at the (N,) times."""
+
+    def __init__(self, time: FloatArray, up: FloatArray) -> None:
+        self.time, self.up, self.rate = time, up, np.gradient(up, time)
+        steps = np.diff(time)
+        self._changes = np.concatenate([[0], np.cumsum(steps[1:] != steps[:-1])])
+
+    def swing(self, first: int, last: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return times, inclination and rate from the sample ``first`` to ``last``, by itself."""
+        part = slice(first, last + 1)
+        time, up, rate = self.time[part], self.up[part], self.rate[part].copy()
+        if self._changes[first] == self._changes[last - 1]:  # in even steps it has other sums
+            return time, up, np.gradient(up, time)
+        rate[0] = (up[1] - up[0]) / (time[1] - time[0])
+        rate[-1] = (up[-1] - up[-2]) / (time[-1] - time[-2])
+        return time, up, rate
+
+    def degrees_at(self, moments: FloatArray) -> FloatArray:
+        """Return the inclination at (M,) moments, degrees."""
+        return np.degrees(np.interp(moments, self.time, self.up))
 
 
 def forward_axis(track: FootTrajectory, falls: Footfalls) -> FloatArray | None:
@@ -80,19 +100,30 @@ def forward_axis(track: FootTrajectory, falls: Footfalls) -> FloatArray | None:
     where there is no such stride.
     """
     stood = falls.mean(track.position)
-    matrices = [quaternion_matrix(track.quaternion[at]) for at in falls.middle]
     ways = np.diff(stood, axis=0)[:, :2]
     lengths = np.linalg.norm(ways, axis=1)
-    axes = []
-    for k in np.flatnonzero(lengths >= LEAST_STRIDE_M):
-        ahead = np.append(ways[k] / lengths[k], 0.0)
-        axis, after = matrices[k].T @ ahead, matrices[k + 1].T @ ahead
-        if axis @ after >= MOST_TURN_COSINE:
-            axes.append(axis)
-    if not axes:
+    long = np.flatnonzero(lengths >= LEAST_STRIDE_M)
+    ahead = np.column_stack([ways[long] / lengths[long, np.newaxis], np.zeros(len(long))])
+    to_body = np.swapaxes(stood_attitudes(track, falls), 1, 2)
+    axes = (to_body[long] @ ahead[:, :, np.newaxis])[:, :, 0]
+    after = (to_body[long + 1] @ ahead[:, :, np.newaxis])[:, :, 0]
+    x, y, z = (axes * after).T
+    axes = axes[x + y + z >= MOST_TURN_COSINE]
+    if not len(axes):
         return None
     middle: FloatArray = np.median(axes, axis=0)
     return middle / np.linalg.norm(middle)
+
+
+def stood_attitudes(track: FootTrajectory, falls: Footfalls) -> FloatArray:
+    """Return R_nb (M, 3, 3) in the middle of every stance."""
+    x, y, z, w = track.quaternion[falls.middle].T
+    rows = (
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    )
+    return np.stack([np.stack(row, axis=1) for row in rows], axis=1)
 
 
 def inclination(track: FootTrajectory, axis: FloatArray) -> FloatArray:
@@ -104,21 +135,23 @@ def inclination(track: FootTrajectory, axis: FloatArray) -> FloatArray:
     return angle
 
 
-def _moments(time: FloatArray, pitch: FloatArray) -> tuple[float, float]:
+def _moments(time: FloatArray, pitch: FloatArray, rate: FloatArray) -> tuple[float, float]:
     """Return lift-off and initial contact of a swing, s; ``pitch`` (K,) rad, toes up positive."""
     lows = _lows(pitch)
     lowest, last = (max(2, lows[k]) for k in (0, -1))
     on = _peak(time, pitch, last + int(np.argmax(pitch[last:])))
     if len(lows) > 1:
         return math.nan, on
-    rate = np.gradient(pitch, time)
     return _middle_of_peak(time, -rate, int(np.argmin(rate[: lowest + 1]))), on
 
 
 def _lows(pitch: FloatArray) -> list[int]:
     """Return where the toes point down most: once a swing, twice where a stance was missed."""
-    least = float(pitch.min())
+    lowest = int(pitch.argmin())
+    least = float(pitch[lowest])
     deep = np.flatnonzero(pitch <= max(least, 0.5 * least))
+    if least < 0.0 and len(deep) == deep[-1] - deep[0] + 1:  # as nearly always: in one dip
+        return [lowest]
     split = np.maximum(pitch[deep[:-1]], pitch[deep[1:]]) > 0.0
     for k in np.flatnonzero(np.diff(deep) > 1).tolist():
         split[k] = pitch[deep[k] : deep[k + 1] + 1].max() > 0.0
@@ -155,4 +188,5 @@ def _peak(time: FloatArray, value: FloatArray, index: int) -> float:
     before, top, after = value[index - 1 : index + 2]
     bend = before - 2 * top + after
     shift = 0.0 if bend >= 0 else 0.5 * (before - after) / bend
-    return float(time[index] + np.clip(shift, -0.5, 0.5) * (time[index + 1] - time[index]))
+    shift = min(max(shift, -0.5), 0.5)
+    return float(time[index] + shift * (time[index + 1] - time[index]))

@@ -8,13 +8,14 @@ line of the stride, as Huxham et al. 2006 define them, so they hold on curved pa
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from bisect import bisect_left
+from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ...core import FEET, FloatArray, FootTrajectory, quaternion_matrix
+from ...core import FEET, FloatArray, FootTrajectory
 from ..frames.association import Footfalls, seconds
-from .foot_contacts import FootContacts, find_contacts, forward_axis
+from .foot_contacts import FootContacts, find_contacts, forward_axis, stood_attitudes
 
 LEAST_LENGTH_M = 0.1
 """A foot that is set down nearer than this has not made a stride."""
@@ -98,15 +99,34 @@ def strides_of(
 
 @dataclass(frozen=True)
 class _Foot:
-    """A foot stance by stance: places (M, 3) m, headings (M,) rad, stances (M, 2) s."""
+    """A foot stance by stance: M stances, in plain numbers where these are read one by one.
 
-    track: FootTrajectory
-    contacts: FootContacts
-    time_s: FloatArray
-    falls: Footfalls
+    Attributes
+    ----------
+    position : (N, 3) m, of the track
+    place : (M, 3) m, where it stood
+    way_m : (M - 1,) m, horizontal distance from place to place
+    begun, ended : one-past-last epoch of each stance but the last, first epoch of the next one
+    stamp_ns, time_s : of the middles of the stances
+    stood_from_s, stood_to_s : s, first and last epoch of every stance
+    heading : rad, in the middle of every stance
+    contact_s, lift_off_s, contact_deg, lift_off_deg : as in :class:`FootContacts`
+    """
+
+    position: FloatArray
     place: FloatArray
-    heading: FloatArray
-    stance_s: FloatArray
+    way_m: list[float]
+    begun: list[int]
+    ended: list[int]
+    stamp_ns: list[int]
+    time_s: list[float]
+    stood_from_s: list[float]
+    stood_to_s: list[float]
+    heading: list[float]
+    contact_s: list[float]
+    lift_off_s: list[float]
+    contact_deg: list[float]
+    lift_off_deg: list[float]
 
     @classmethod
     def of(cls, track: FootTrajectory, contacts: FootContacts) -> _Foot:
@@ -114,37 +134,46 @@ class _Foot:
         time = seconds(track.stamp_ns, int(track.stamp_ns[0]))
         axis = forward_axis(track, falls)
         ahead = np.array([1.0, 0.0, 0.0]) if axis is None else axis
-        faced = [quaternion_matrix(track.quaternion[at]) @ ahead for at in falls.middle]
-        heading = np.array([math.atan2(y, x) for x, y, _ in faced])
+        faced = stood_attitudes(track, falls) @ ahead
+        place = falls.mean(track.position)
         bounds = np.reshape(falls.bounds, (-1, 2))
-        stance = np.column_stack([time[bounds[:, 0]], time[bounds[:, 1] - 1]])
-        return cls(track, contacts, time, falls, falls.mean(track.position), heading, stance)
+        return cls(
+            track.position,
+            place,
+            np.hypot(*np.diff(place, axis=0)[:, :2].T).tolist(),
+            bounds[:-1, 1].tolist(),
+            bounds[1:, 0].tolist(),
+            track.stamp_ns[falls.middle].tolist(),
+            time[falls.middle].tolist(),
+            time[bounds[:, 0]].tolist(),
+            time[bounds[:, 1] - 1].tolist(),
+            [math.atan2(y, x) for x, y, _ in faced.tolist()],
+            *(getattr(contacts, field.name).tolist() for field in fields(contacts)),
+        )
 
 
 def _strides(name: str, foot: _Foot, other: _Foot) -> list[Stride]:
     rows: list[Stride] = []
-    for k in range(len(foot.falls) - 1):
-        way = (foot.place[k + 1] - foot.place[k])[:2]
-        if float(np.hypot(*way)) >= LEAST_LENGTH_M:
+    for k, way in enumerate(foot.way_m):
+        if way >= LEAST_LENGTH_M:
             rows.append(_stride(name, len(rows) + 1, k, foot, other))
     return rows
 
 
 def _stride(name: str, number: int, k: int, foot: _Foot, other: _Foot) -> Stride:
-    start, end = (int(foot.track.stamp_ns[foot.falls.middle[i]]) for i in (k, k + 1))
     times = _times(k, foot)
     stood = _standing(other, k, foot)
-    length = float(np.hypot(*(foot.place[k + 1] - foot.place[k])[:2]))
+    length = foot.way_m[k]
     step, width = _step(name, k, foot, other, stood)
     rise = float(foot.place[k + 1, 2] - foot.place[k, 2])
     turn = math.degrees(math.remainder(foot.heading[k + 1] - foot.heading[k], math.tau))
-    before = math.nan if stood is None else other.contacts.contact_s[stood]
+    before = math.nan if stood is None else other.contact_s[stood]
     return Stride(
         foot=name,
         number=number,
-        start_ns=start,
-        end_ns=end,
-        start_s=float(foot.time_s[foot.falls.middle[k]]),
+        start_ns=foot.stamp_ns[k],
+        end_ns=foot.stamp_ns[k + 1],
+        start_s=foot.time_s[k],
         stride_length_m=length,
         step_length_m=step,
         step_width_m=width,
@@ -153,12 +182,12 @@ def _stride(name: str, number: int, k: int, foot: _Foot, other: _Foot) -> Stride
         stance_time_s=times[1],
         swing_time_s=times[2],
         stance_percent=100.0 * times[1] / times[0],
-        step_time_s=_within_a_stride(foot.contacts.contact_s[k + 1] - before),
+        step_time_s=_within_a_stride(foot.contact_s[k + 1] - before),
         cadence_steps_per_min=120.0 / times[0],
         speed_m_per_s=length / times[0],
         clearance_m=_clearance(k, foot),
-        contact_deg=float(foot.contacts.contact_deg[k + 1]),
-        lift_off_deg=float(foot.contacts.lift_off_deg[k]),
+        contact_deg=foot.contact_deg[k + 1],
+        lift_off_deg=foot.lift_off_deg[k],
         turn_deg=turn,
         steady=_is_steady(k, foot, times[0], turn, rise),
     )
@@ -169,23 +198,23 @@ def _times(k: int, foot: _Foot) -> tuple[float, float, float]:
 
     They are nan for a stride that began from standing, and where a stance was missed.
     """
-    contact, lift_off = foot.contacts.contact_s, foot.contacts.lift_off_s
+    contact, lift_off = foot.contact_s, foot.lift_off_s
     known = math.isfinite(lift_off[k])
     stride = _within_a_stride(contact[k + 1] - contact[k]) if known else math.nan
     stance = lift_off[k] - contact[k] if math.isfinite(stride) else math.nan
-    return stride, float(stance), float(contact[k + 1] - lift_off[k])
+    return stride, stance, contact[k + 1] - lift_off[k]
 
 
 def _within_a_stride(time_s: float) -> float:
     """Return a time, or nan where the walker paused in it."""
-    return float(time_s) if 0.0 < time_s <= SLOWEST_STRIDE_S else math.nan
+    return time_s if 0.0 < time_s <= SLOWEST_STRIDE_S else math.nan
 
 
 def _standing(other: _Foot, k: int, foot: _Foot) -> int | None:
     """Return which stance of the other foot lies in the middle of the swing after stance ``k``."""
-    middle = 0.5 * (foot.stance_s[k, 1] + foot.stance_s[k + 1, 0])
-    next_one = int(np.searchsorted(other.stance_s[:, 1], middle))
-    stands = next_one < len(other.stance_s) and other.stance_s[next_one, 0] <= middle
+    middle = 0.5 * (foot.stood_to_s[k] + foot.stood_from_s[k + 1])
+    next_one = bisect_left(other.stood_to_s, middle)
+    stands = next_one < len(other.stood_to_s) and other.stood_from_s[next_one] <= middle
     return next_one if stands else None
 
 
@@ -194,7 +223,7 @@ def _step(name: str, k: int, foot: _Foot, other: _Foot, stood: int | None) -> tu
     if stood is None:
         return math.nan, math.nan
     way = (foot.place[k + 1] - foot.place[k])[:2]
-    along = way / np.hypot(*way)
+    along = way / foot.way_m[k]
     across = np.array([-along[1], along[0]]) * (1.0 if name == FEET[0] else -1.0)
     reach = (foot.place[k + 1] - other.place[stood])[:2]
     return float(reach @ along), float(reach @ across)
@@ -202,20 +231,20 @@ def _step(name: str, k: int, foot: _Foot, other: _Foot, stood: int | None) -> tu
 
 def _clearance(k: int, foot: _Foot) -> float:
     """Return the largest height in the swing above the straight line of the placements, m."""
-    first, last = int(foot.falls.bounds[k, 1]), int(foot.falls.bounds[k + 1, 0])
+    first, last = foot.begun[k], foot.ended[k]
     if last <= first:
         return math.nan
-    swing = foot.track.position[first:last]
+    swing = foot.position[first:last]
     way = foot.place[k + 1] - foot.place[k]
     share = (swing - foot.place[k])[:, :2] @ way[:2] / (way[:2] @ way[:2])
-    line = foot.place[k, 2] + np.clip(share, 0.0, 1.0) * way[2]
-    return float(np.max(swing[:, 2] - line))
+    line = foot.place[k, 2] + np.minimum(np.maximum(share, 0.0), 1.0) * way[2]
+    return float((swing[:, 2] - line).max())
 
 
 def _is_steady(k: int, foot: _Foot, stride_s: float, turn_deg: float, rise_m: float) -> bool:
     """Tell strides of even walking; those that leave or reach a stand are none."""
-    if not math.isfinite(stride_s) or k + 2 >= len(foot.falls):
+    if not math.isfinite(stride_s) or k + 2 >= len(foot.heading):
         return False
-    contact = foot.contacts.contact_s
+    contact = foot.contact_s
     goes_on = math.isfinite(_within_a_stride(contact[k + 2] - contact[k + 1]))
     return goes_on and abs(turn_deg) <= STEADY_TURN_DEG and abs(rise_m) <= STEADY_RISE_M

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import Covariances, FloatArray, FootTrajectory, IntArray, PoseSeries
+from ..frames.between_poses import turns_between
 
 SMALLEST_STD = 1e-4
 """Lower bound of the standard deviations (m, m/s, rad); a hard constraint makes them zero."""
@@ -82,12 +83,7 @@ def _foot(
 
 def attitude_error(estimate: FloatArray, truth: FloatArray) -> FloatArray:
     """Return (N, 3) rotation vectors, fixed navigation axes, from the truth to the estimate."""
-    from scipy.spatial.transform import Rotation
-
-    error: FloatArray = (
-        Rotation.from_quat(estimate) * Rotation.from_quat(truth).inv()
-    ).as_rotvec()
-    return error
+    return turns_between(truth, estimate)
 
 
 def _mean(error: FloatArray, covariance: Covariances, at: IntArray) -> float:

@@ -177,7 +177,7 @@ def test_odometry_has_frames_increasing_stamps_and_full_covariances(walked):
 
 
 def test_the_twist_is_the_change_of_the_pose_in_the_child_frame(walked):
-    messages = walked(method="zupt")["left"]
+    messages = walked()["left"]
     position = np.array([pose_of(m.pose.pose)[0] for m in messages])
     seconds = np.array([to_ns(m.header.stamp) for m in messages]) * 1e-9
     change = np.gradient(position, seconds, axis=0)

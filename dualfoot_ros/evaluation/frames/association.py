@@ -15,8 +15,9 @@ from ...core import (
     stance_bounds,
     stance_middles,
 )
+from .pose_interpolation import Between
 
-TOGETHER = 1 << 14  # stamps at once, for which a slerp needs some megabytes
+TOGETHER = 1 << 14  # stamps at once, whose poses need some megabytes
 
 
 def seconds(stamp_ns: IntArray, origin_ns: int) -> FloatArray:
@@ -30,21 +31,20 @@ def truth_at(stamp_ns: IntArray, truth: PoseSeries) -> PoseSeries:
     Positions follow cubic Hermite splines where velocities are known and straight lines where
     not; attitudes follow great circles (slerp).
     """
-    from scipy.interpolate import CubicHermiteSpline
-    from scipy.spatial.transform import Rotation, Slerp
-
     origin = int(truth.stamp_ns[0])
     known, wanted = seconds(truth.stamp_ns, origin), seconds(stamp_ns, origin)
-    slerp = Slerp(known, Rotation.from_quat(truth.quaternion))
+    position, velocity = np.empty((2, len(wanted), 3))
     attitude = np.empty((len(wanted), 4))
     for start in range(0, len(wanted), TOGETHER):
         part = slice(start, start + TOGETHER)
-        attitude[part] = slerp(wanted[part]).as_quat()
+        between = Between.of(wanted[part], known)
+        attitude[part] = between.slerp(truth.quaternion)
+        if truth.velocity is not None:
+            position[part], velocity[part] = between.hermite(truth.position, truth.velocity)
     if truth.velocity is None:
         position = np.column_stack([np.interp(wanted, known, p) for p in truth.position.T])
         return PoseSeries(stamp_ns, position, attitude)
-    spline = CubicHermiteSpline(known, truth.position, truth.velocity)
-    return PoseSeries(stamp_ns, spline(wanted), attitude, spline(wanted, 1))
+    return PoseSeries(stamp_ns, position, attitude, velocity)
 
 
 def within(stamp_ns: IntArray, truth: PoseSeries) -> np.ndarray:

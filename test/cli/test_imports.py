@@ -2,9 +2,12 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
 from processes import ROOT, environment
+
+from dualfoot_ros.recording import read_bag, write_bag
 
 SCRIPT = """
 import sys
@@ -32,6 +35,18 @@ NEEDED_BY_BAGS = ("scipy", "rosbags", "yaml")
     ],
 )
 def test_a_verb_loads_nothing_that_it_does_not_need(arguments, names):
+    assert_loads_nothing_of(names, arguments)
+
+
+def test_evaluate_loads_no_science_for_a_walk_with_truth(tmp_path):
+    whole = read_bag(ROOT / "bags" / "demo")
+    some = replace(whole, left=whole.left[:2000], right=whole.right[:2000])
+    bag = str(write_bag(tmp_path / "walk", some))
+    names = (*FIGURES, *LATER, *COMPILER, "scipy")
+    assert_loads_nothing_of(names, ["evaluate", bag, "--json"])
+
+
+def assert_loads_nothing_of(names, arguments):
     script = SCRIPT.format(arguments=arguments, names=names)
     done = subprocess.run(
         [sys.executable, "-c", script],

@@ -160,11 +160,11 @@ def walk_bag(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="session")
 def short_bag(walk_bag, tmp_path_factory) -> Path:
-    """Return the first 15 s of the walk, with truth."""
+    """Return the first 12 s of the walk, with truth."""
     from dualfoot_ros.recording import read_bag, write_bag
 
     whole = read_bag(walk_bag)
-    cut = replace(whole, left=whole.left[:900], right=whole.right[:900])
+    cut = replace(whole, left=whole.left[:720], right=whole.right[:720])
     return write_bag(tmp_path_factory.mktemp("bags") / "short", cut)
 
 

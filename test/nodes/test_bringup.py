@@ -139,15 +139,13 @@ def test_a_file_that_cannot_be_read_ends_it_too_though_that_comes_out_later(with
     assert "Traceback" not in running.output
 
 
-@pytest.mark.parametrize(
-    "source", ["serial:///dev/no_such_port?format=mcu", "tcp://127.0.0.1:1?format=mcu"]
-)
-def test_a_device_that_is_not_there_yet_is_reported_and_waited_for(with_sources, source):
-    running = with_sources(source)
-    running.wait_for(
-        f"[me.left.imu_adapter]: source '{source}' is not available and is tried again"
-    )
-    running.wait_for("topic '/b' has no publisher")
+def test_a_device_that_is_not_there_yet_is_reported_and_waited_for(with_sources):
+    sources = "serial:///dev/no_such_port?format=mcu", "tcp://127.0.0.1:1?format=mcu"
+    running = with_sources(*sources)
+    for foot, source in zip(("left", "right"), sources, strict=True):
+        running.wait_for(
+            f"[me.{foot}.imu_adapter]: source '{source}' is not available and is tried again"
+        )
     running.send(signal.SIGINT)
     assert running.code() == 0
 

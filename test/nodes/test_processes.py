@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from dualfoot_ros.nodes.fusion import FusionNode
+
 ROOT = Path(__file__).resolve().parents[2]
 SIGNALS = {
     "fusion": [signal.SIGINT, signal.SIGTERM],
@@ -116,30 +118,37 @@ def test_a_bad_parameter_is_one_sentence_and_exit_code_2(program_here, arguments
     assert "Traceback" not in running.output
 
 
-def test_a_whole_number_is_taken_for_a_real_one(program):
-    running = program("fusion", "--ros-args", "-p", "zupt.std:=1")
-    running.wait_for("zupt.std=1.0")
+@pytest.fixture
+def said(bench, capfd):
+    """Return what fusion logs with certain arguments of ROS, as a process reads them."""
+
+    def start(*arguments):
+        bench.add(FusionNode, cli_args=["--ros-args", *map(str, arguments)])
+        return capfd.readouterr().err
+
+    return start
 
 
-def test_a_misspelt_parameter_is_warned_about_with_the_name_that_was_meant(program):
-    running = program("fusion", "--ros-args", "-p", "zupt.sdt:=0.1")
-    running.wait_for("'zupt.sdt' is not known and has no effect; did you mean 'zupt.std'?")
+def test_a_whole_number_is_taken_for_a_real_one(said):
+    assert "zupt.std=1.0" in said("-p", "zupt.std:=1")
 
 
-def test_a_parameter_of_another_node_in_the_same_file_is_no_misspelling(program, tmp_path):
+def test_a_misspelt_parameter_is_warned_about_with_the_name_that_was_meant(said):
+    warning = "'zupt.sdt' is not known and has no effect; did you mean 'zupt.std'?"
+    assert warning in said("-p", "zupt.sdt:=0.1")
+
+
+def test_a_parameter_of_another_node_in_the_same_file_is_no_misspelling(said, tmp_path):
     path = tmp_path / "all.yaml"
     path.write_text("/**:\n  ros__parameters:\n    mounting.yaw: 0.1\n    play.loop: true\n")
-    running = program("fusion", "--ros-args", "--params-file", path)
-    running.wait_for("configuration:")
-    assert "not known" not in running.output
+    output = said("--params-file", path)
+    assert "configuration:" in output and "not known" not in output
 
 
-def test_a_preset_reaches_a_node_in_a_namespace(program):
-    running = program(
-        "fusion", "--ros-args", "--params-file", ROOT / "config/liu2023.yaml", "-r", "__ns:=/me"
-    )
-    running.wait_for("[me.fusion]: configuration:")
-    running.wait_for("idc.apply_at=detection")
+def test_a_preset_reaches_a_node_in_a_namespace(said):
+    output = said("--params-file", ROOT / "config/liu2023.yaml", "-r", "__ns:=/me")
+    assert "[me.fusion]: configuration:" in output
+    assert "idc.apply_at=detection" in output
 
 
 def test_an_argument_that_is_not_for_ros_is_refused(program_here):

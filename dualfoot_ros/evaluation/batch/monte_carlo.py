@@ -35,9 +35,10 @@ from ...core import (
 from ...recording import Recording
 from ...simulation import BarometerConfig, MagnetometerConfig, SensorConfig, WalkConfig, simulate
 from ..frames.association import Footfalls
+from ..frames.between_poses import turns_between
 from ..frames.gauge import Truth, overlap
 from ..frames.yaw_transform import YawTransform
-from ..metrics.nees import attitude_error, nees
+from ..metrics.nees import nees
 from ..track import track
 from .comparison import warm_up
 
@@ -139,7 +140,7 @@ def _errors(run: Trajectory, truth: Truth, config: TrackerConfig) -> Scores:
         _put_position(put, name, foot.position - true.position, foot.position_covariance[:], at)
         if true.velocity is not None:
             put(f"{name} velocity", foot.velocity - true.velocity, foot.velocity_covariance[:], at)
-        turned = attitude_error(foot.quaternion, true.quaternion)
+        turned = turns_between(true.quaternion, foot.quaternion)
         put(f"{name} attitude", turned, foot.attitude_covariance[:], at)
         put(f"{name} heading", turned[:, 2:], foot.attitude_covariance[:, 2:, 2:], at)
     apart = run.left.position - run.right.position - (truth[0].position - truth[1].position)

@@ -74,16 +74,11 @@ def _foot(
         velocity = _mean(foot.velocity - true.velocity, foot.velocity_covariance, at)
     attitude = float("nan")
     if len(at):
-        turned = attitude_error(foot.quaternion[at], true.quaternion[at])
+        turned = turns_between(true.quaternion[at], foot.quaternion[at])
         own = Covariances.of(foot.attitude_covariance[at])
         attitude = _mean(turned, own, np.arange(len(at)))
     position = _mean(foot.position - true.position, foot.position_covariance, at)
     return position, velocity, attitude
-
-
-def attitude_error(estimate: FloatArray, truth: FloatArray) -> FloatArray:
-    """Return (N, 3) rotation vectors, fixed navigation axes, from the truth to the estimate."""
-    return turns_between(truth, estimate)
 
 
 def _mean(error: FloatArray, covariance: Covariances, at: IntArray) -> float:

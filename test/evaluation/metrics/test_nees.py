@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.stats import chi2
 
 from dualfoot_ros.evaluation.frames.yaw_transform import YawTransform
-from dualfoot_ros.evaluation.metrics.nees import attitude_error, nees
+from dualfoot_ros.evaluation.metrics.nees import nees
 
 
 def covariance(seed: int) -> np.ndarray:
@@ -40,10 +40,3 @@ def test_nees_does_not_depend_on_the_frame(seed, yaw):
 def test_a_covariance_made_singular_by_a_hard_constraint_gives_a_finite_figure():
     P = np.diag([0.0, 1.0, 1.0])[None]
     assert np.isfinite(nees(np.array([[0.01, 0.5, 0.5]]), P)).all()
-
-
-def test_the_attitude_error_turns_the_truth_into_the_estimate_about_fixed_axes():
-    half = 0.05
-    estimate = np.array([[0.0, 0.0, np.sin(half), np.cos(half)]])
-    error = attitude_error(estimate, np.array([[0.0, 0.0, 0.0, 1.0]]))
-    np.testing.assert_allclose(error, [[0.0, 0.0, 0.1]], atol=1e-12)

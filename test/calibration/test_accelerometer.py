@@ -26,7 +26,7 @@ def lower(values):
     return matrix
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(bias=biases, errors=st.tuples(*[small] * 6))
 def test_bias_scale_and_misalignment_are_recovered_from_many_attitudes(bias, errors):
     fit = fit_accelerometer(segments(well_spread(20), bias=bias, matrix=lower(errors)))
@@ -36,7 +36,7 @@ def test_bias_scale_and_misalignment_are_recovered_from_many_attitudes(bias, err
     assert rms(fit.residual_after) < 0.003
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(bias=biases, scale=st.tuples(*[small] * 3))
 def test_six_positions_give_bias_and_scale_even_if_they_are_not_quite_level(bias, scale):
     tilt = np.random.default_rng(1).normal(0.0, 0.02, (6, 3))

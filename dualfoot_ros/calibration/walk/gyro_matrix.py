@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import FloatArray
+from .filter_terms import FilterNoise, symmetric
 from .foot_walk import FootWalk
-from .matrix_filter import FilterNoise, Information, filter_walk, symmetric
+from .matrix_filter import Information, filter_walk
 
 PASSES = 3
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...core import FloatArray
+from .filter_terms import symmetric
 from .foot_walk import FootWalk
 from .gyro_matrix import GyroMatrixFit, fit_matrix
-from .matrix_filter import symmetric
 
 SPREAD = 0.004  # of the elements that are put on
 ALLOWED = 0.0008

@@ -13,11 +13,11 @@ from ...evaluation import pair_samples, track_samples
 from ...inspection import unconstrained_config
 from ...recording import Recording
 from ..sensor import SensorCalibration, Triad
+from .filter_terms import FilterNoise, symmetric
 from .foot_walk import FootWalk, foot_walk
 from .gyro_matrix import GyroMatrixFit, fit_matrix
 from .known_points import BeforeAndAfter, walk_errors
 from .left_out import LeftOut, leave_each_out
-from .matrix_filter import FilterNoise, symmetric
 from .observability import Turns, advice, turns
 from .self_test import SelfTest, self_test
 

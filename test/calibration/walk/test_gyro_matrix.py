@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.calibration import CalibrationError
+from dualfoot_ros.calibration.walk.filter_terms import symmetric
 from dualfoot_ros.calibration.walk.foot_walk import foot_walk
 from dualfoot_ros.calibration.walk.gyro_matrix import fit_matrix
 from dualfoot_ros.calibration.walk.left_out import leave_each_out
-from dualfoot_ros.calibration.walk.matrix_filter import symmetric
 from dualfoot_ros.calibration.walk.observability import advice, turns, weakest
 from dualfoot_ros.calibration.walk.self_test import self_test
 from dualfoot_ros.core import DualFootTracker

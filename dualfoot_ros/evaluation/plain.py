@@ -12,8 +12,10 @@ import numpy as np
 
 def plain(value: Any) -> Any:
     """Return ``value`` in the types that JSON has; not-a-number and infinity become None."""
-    if type(value) is float:  # most of them, in the curves of a page
-        return value if math.isfinite(value) else None
+    if isinstance(value, float):  # most of a report; of NumPy too
+        return float(value) if math.isfinite(value) else None
+    if isinstance(value, (str, int, type(None))) and not isinstance(value, Enum):
+        return value
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple, set)):
@@ -22,8 +24,4 @@ def plain(value: Any) -> Any:
         return plain(value.tolist())
     if isinstance(value, np.generic):
         return plain(value.item())
-    if isinstance(value, Enum):
-        return value.value
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    return value
+    return value.value if isinstance(value, Enum) else value

@@ -9,7 +9,7 @@ from drivers.frames import stream
 from recording.foreign import cut, ros1_bag, ros2_bag
 from recording.samples import moving
 
-from dualfoot_ros.recording import read_bag
+from dualfoot_ros.recording import Recording, read_bag
 from dualfoot_ros.simulation import WalkConfig, simulate
 
 OTHER = ("/imu_left/data", "/imu_right/data")
@@ -17,8 +17,9 @@ OTHER = ("/imu_left/data", "/imu_right/data")
 
 @pytest.fixture(scope="module")
 def walk():
-    """Return a simulated walk at 60 Hz."""
-    return simulate(WalkConfig(rate=60.0, standing=5.0), seed=4)
+    """Return the first 40 s of a simulated walk at 60 Hz."""
+    made = simulate(WalkConfig(rate=60.0, standing=5.0), seed=4)
+    return Recording(made.left[:2400], made.right[:2400])
 
 
 def topics_of(recording, names=("/left/imu/data_raw", "/right/imu/data_raw")):

@@ -16,7 +16,7 @@ SHIFT_NS = 41_250_000_000
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory):
     """Return a bag whose right foot's clock is 41.25 s ahead."""
-    walk = simulate(WalkConfig(route="L"), seed=1)
+    walk = simulate(WalkConfig(route="L", rate=60.0), seed=1)
     right = replace(walk.right, stamp_ns=walk.right.stamp_ns + SHIFT_NS)
     path = tmp_path_factory.mktemp("bags") / "walk"
     return write_bag(path, Recording(left=walk.left, right=right, notes={"from": "here"}))

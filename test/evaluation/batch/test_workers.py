@@ -45,8 +45,8 @@ def test_an_exception_of_a_worker_is_raised_with_where_it_was_raised():
 
 def test_a_worker_that_is_killed_from_outside_is_a_sentence_with_its_code():
     said = f"a worker process has ended with exit code -{signal.SIGKILL.value}"
-    with pytest.raises(EvaluationError, match=said), Workers(tenfold, 2) as workers:
-        list(workers.each([1, 13, 2]))
+    with pytest.raises(EvaluationError, match=said), Workers(tenfold, 1) as one:
+        list(one.each([1, 13, 2]))
 
 
 @pytest.fixture

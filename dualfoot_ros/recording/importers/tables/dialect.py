@@ -7,6 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 from ....core import RecordingError
 from .raw_text import RawText
@@ -68,10 +69,16 @@ def split(line: str, delimiter: str) -> list[str]:
 
 def is_number(cell: str, decimal: str) -> bool:
     """Return whether a cell is a number with this decimal sign."""
+    return _number(decimal).fullmatch(cell.strip()) is not None
+
+
+@cache
+def _number(decimal: str) -> re.Pattern[str]:
+    """Return the pattern of a number: it is asked of every cell of the first lines."""
     sign = re.escape(decimal)
     after = r"\d+" if decimal == "," else r"\d*"  # "1," is a cell with a comma, "1." a number
     pattern = rf"[+-]?(\d+({sign}{after})?|{sign}\d+)([eE][+-]?\d+)?|[+-]?(nan|inf)"
-    return re.fullmatch(pattern, cell.strip(), re.I) is not None
+    return re.compile(pattern, re.I)
 
 
 def find_dialect(raw: RawText, layout: Layout) -> Dialect:

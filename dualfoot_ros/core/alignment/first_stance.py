@@ -45,7 +45,8 @@ class FirstStances:
         self._last_ns = stamp_ns
         for foot, slider in enumerate(self._sliders):
             sample = values[6 * foot : 6 * foot + 6]
-            self._turned[foot] = self._turned[foot] @ exact_rotation(sample[3:] * dt)
+            if self._stances[foot] is not None:
+                self._turned[foot] = self._turned[foot] @ exact_rotation(sample[3:] * dt)
             window = slider.add(stamp_ns, sample.copy())
             if window is not None and self._calm(window):
                 self._stances[foot] = standstill_of(window)

@@ -98,6 +98,7 @@ class FootStand:
         # variance of the windows' means (rate, force) by what happens within them
         self._within = [0.0] * 2
         self._newest: Window | None = None
+        self._result: FootStandstill | None = None  # until another window comes
 
     def add(self, window: Window) -> None:
         """Take a window."""
@@ -114,7 +115,7 @@ class FootStand:
             self._spread[k] = keep * self._spread[k] + weight * step * (value - self._mean[k])
         for k, within in enumerate((window.mean_rate_std, window.mean_force_std)):
             self._within[k] = keep * self._within[k] + weight * (within * within)
-        self._newest = window
+        self._newest, self._result = window, None
         self.count += 1
 
     def _step_s(self, window: Window) -> float:
@@ -129,7 +130,13 @@ class FootStand:
         return 0.0 if self._newest is None else self._newest.seconds + self._after_first_s
 
     def result(self) -> FootStandstill:
-        """Return what the stand tells; windows overlap, so not all are independent.
+        """Return what the stand tells."""
+        if self._result is None:
+            self._result = self._worked_out()
+        return self._result
+
+    def _worked_out(self) -> FootStandstill:
+        """Work out what the stand tells; windows overlap, so not all are independent.
 
         The scatter of the windows' means says how far off their mean is; where there are few of
         them, what happens within the windows says it.

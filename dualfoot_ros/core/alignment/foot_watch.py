@@ -21,9 +21,9 @@ class FootWatch:
         self._config = config
         length = config.alignment.window
         self._slider, self._short = WindowSlider(length), WindowSlider(min(SHORTEST_S, length))
-        self.stand, self._short_stand = FootStand(config.alignment), FootStand(config.alignment)
+        self.stand = FootStand(config.alignment)
+        self._still: Window | None = None  # the newest short window, if the foot stands in it
         self.complaint: str | None = None
-        self.still = False
         self.quiet_s = 0.0
         self._last_ns = 0
         self.restarts = 0
@@ -46,10 +46,8 @@ class FootWatch:
     def _take_short(self, window: Window) -> None:
         """Let the newest short window stand for a stand that is not longer than that."""
         config = self._config
-        self.still = window.motion(config.alignment, config.gravity) is None
-        self._short_stand.clear()
-        if self.still:
-            self._short_stand.add(window)
+        still = window.motion(config.alignment, config.gravity) is None
+        self._still = window if still else None
 
     def windows(self, stamps: IntArray, rows: FloatArray) -> Iterator[tuple[int, Window]]:
         """Take finite samples (N, 6) of a stand that is refined; yield windows and their ends."""
@@ -73,8 +71,10 @@ class FootWatch:
     @property
     def standstill(self) -> FootStandstill | None:
         """What the stand that the foot is in tells; None while it moves."""
-        if not self.still:
+        if self._still is None:
             return None
         if self.stand.count:
             return self.stand.result()
-        return self._short_stand.result() if self._short_stand.count else None
+        short = FootStand(self._config.alignment)
+        short.add(self._still)
+        return short.result()

@@ -36,9 +36,9 @@ class Window:
     @classmethod
     def of(cls, samples: FloatArray, end_ns: int, seconds: float) -> Window:
         """Return the window of ``samples`` (N, 6)."""
-        mean = samples.sum(axis=0) / len(samples)
+        mean = np.add.reduce(samples) / len(samples)
         off = samples - mean
-        std = np.sqrt((off * off).sum(axis=0) / len(samples))
+        std = np.sqrt(np.add.reduce(off * off) / len(samples))
         return cls(mean, std, end_ns, seconds)
 
     @property

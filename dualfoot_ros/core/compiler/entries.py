@@ -31,7 +31,7 @@ class Entry(NamedTuple):
 _W, _N, _ROWS, _I, _X = Kind.REALS, Kind.INTEGERS, Kind.ROWS, Kind.INTEGER, Kind.REAL
 
 ENTRY_KINDS = {
-    "advance": Entry((_W, _N, _W, _ROWS, _I, _I, _ROWS), _I),
+    "advance": Entry((_W, _N, _N, _N, _W, _ROWS, _I, _I, _ROWS), _I),
     "step": Entry((_W, _N, _N, _I, _X, _W, _ROWS), _I),
     "rerun": Entry((_W, _N, _I, _I)),
     "restore": Entry((_W, _N, _I)),

@@ -31,10 +31,11 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     """Yield what every entry makes of the same numbers."""
     w, n = _numbers()
     out, samples = np.zeros((EPOCHS, lay.OUT)), _walk()
+    ring, stamps, dts = np.zeros(RING, dtype=np.int64), np.arange(EPOCHS), np.full(EPOCHS, 0.01)
     at = 0
     while at < EPOCHS:
-        at = functions["advance"](w, n, np.full(EPOCHS, 0.01), samples, at, EPOCHS, out)
-    yield w.tobytes() + n.tobytes() + out.tobytes()
+        at = functions["advance"](w, n, ring, stamps, dts, samples, at, EPOCHS, out)
+    yield w.tobytes() + n.tobytes() + out.tobytes() + ring.tobytes()
     functions["set_flags"](n, 1, 0, EPOCHS - 1, 1)
     functions["restore"](w, n, 3)
     functions["rerun"](w, n, 3, EPOCHS - 1)
@@ -43,9 +44,8 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     told[0, : lay.OUT] = out[0]
     numbers = functions["tell"](w, told)
     yield np.append(told, numbers).tobytes()
-    stamps = np.zeros(RING, dtype=np.int64)
-    done = functions["step"](w, n, stamps, 7, 0.01, samples[0], told)
-    yield np.append(told, done).tobytes() + stamps.tobytes()
+    done = functions["step"](w, n, ring, 7, 0.01, samples[0], told)
+    yield np.append(told, done).tobytes() + ring.tobytes()
     yield w.tobytes() + n.tobytes() + out.tobytes()
     for kind in (None, lay.KNOW_ALL, lay.KNOW_COMMON, lay.KEEP_PLACE, lay.KNOW_NOTHING):
         yield _updated(functions, w, kind)

@@ -137,14 +137,19 @@ def rerun(w, n, first, last):
         filter_epoch(w, n, epoch, coupled)
 
 
-def begin(w, n, dt):
-    """Begin the next epoch, ``dt`` s after the one before; return where its sample belongs."""
+def begin(w, n, ring_stamps, stamp, dt):
+    """Begin the next epoch, ``dt`` s after the one before; return where its sample belongs.
+
+    Its ``stamp`` is kept in the ring ``ring_stamps``.
+    """
     ring = n[N_RING]
     epoch = n[N_EPOCH] + 1
     n[N_EPOCH] = epoch
     if epoch - n[N_OLDEST] >= ring:
         n[N_OLDEST] = epoch - ring + 1
-    o = RINGS + SAMPLE * (epoch % ring)
+    i = epoch % ring
+    ring_stamps[i] = stamp
+    o = RINGS + SAMPLE * i
     w[o] = dt
     return o
 
@@ -173,15 +178,15 @@ def run_newest(w, n, o, coupled):
         n[N_NOTICE] = n[N_NOTICE] | NOTICE_WATCH
 
 
-def advance(w, n, dts, samples, start, stop, out):
+def advance(w, n, ring_stamps, stamps, dts, samples, start, stop, out):
     """Run epochs ``start..stop-1`` of ``samples`` (N, 12) with intervals ``dts`` (N,) s.
 
-    Each writes its row of ``out`` (N, OUT).  Returns the index after the last epoch that was run:
-    ``stop``, or earlier when an epoch set n[N_NOTICE].
+    Each writes its row of ``out`` (N, OUT), and keeps its stamp in ``ring_stamps``.  Returns the
+    index after the last epoch that was run: ``stop``, or earlier when one set n[N_NOTICE].
     """
     coupled = coupled_feet(w)
     for k in range(start, stop):
-        o = begin(w, n, dts[k])
+        o = begin(w, n, ring_stamps, stamps[k], dts[k])
         for j in range(12):
             w[o + 1 + j] = samples[k, j]
         run_newest(w, n, o, coupled)
@@ -191,14 +196,13 @@ def advance(w, n, dts, samples, start, stop, out):
     return stop
 
 
-def step(w, n, stamps, stamp, dt, sample, told):
+def step(w, n, ring_stamps, stamp, dt, sample, told):
     """Run the epoch of one ``sample`` (12,), and write all that is told of it to ``told``.
 
-    Its ``stamp`` is kept in the ring ``stamps``.  Returns whether that is the end of it: all of
+    Returns whether that is the end of it: all of
     ``told`` (1, TOLD) is numbers, and no notice is set.
     """
-    o = begin(w, n, dt)
-    stamps[n[N_EPOCH] % n[N_RING]] = stamp
+    o = begin(w, n, ring_stamps, stamp, dt)
     for j in range(12):
         w[o + 1 + j] = sample[j]
     run_newest(w, n, o, coupled_feet(w))

@@ -218,7 +218,10 @@ O_ZUPT = 41  # innovation 3, S 9, NIS
 O_PRESENT = 54  # 1 where the foot had a sample
 O_RELATIVE = 2 * O_FOOT  # covariance of left minus right position, 3x3
 OUT = O_RELATIVE + 9
-TOLD = OUT + 3 * BLOCK  # with the covariance blocks after it: what is told of one epoch live
+TOLD_BLOCK = 9 * ROW  # of a covariance block: position, velocity and attitude
+TOLD = (
+    OUT + 3 * TOLD_BLOCK
+)  # the row and these, left, right, cross: what is told of one epoch live
 
 
 def position_row(foot: int, axis: int) -> int:

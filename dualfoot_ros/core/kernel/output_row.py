@@ -52,6 +52,7 @@ from .layout import (
     ROT,
     ROW,
     STOOD_S,
+    TOLD_BLOCK,
     VEL,
     WALKED,
     Z_LEFT,
@@ -163,16 +164,17 @@ def height_drift(w):
 def tell(w, told):
     """Write the covariance after the row that ``told`` (1, TOLD) holds.
 
-    Returns whether all of that row is numbers.  The blocks are left, right, cross.  Velocities are
-    in the navigation frame: that of the floor counts for both feet.  So does the drift of the
-    height, which is alike in both.
+    Returns whether all of that row is numbers.  Of the blocks (left, right, cross) the rows of
+    position, velocity and attitude are told.  Velocities are in the navigation frame: that of the
+    floor counts for both feet.  So does the drift of the height, which is alike in both.
     """
-    for i in range(3 * BLOCK):
-        told[0, OUT + i] = w[PLL + i]
+    for b in range(3):
+        for i in range(TOLD_BLOCK):
+            told[0, OUT + TOLD_BLOCK * b + i] = w[PLL + BLOCK * b + i]
     drifted = height_drift(w)
     moves = floor_moves(w)
     for b in range(3):
-        o = OUT + BLOCK * b
+        o = OUT + TOLD_BLOCK * b
         told[0, o + DIAGONAL * (E_POS + 2)] += drifted
         if moves:
             for i in range(3):

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ..samples.series import FloatArray, IntArray
+from ..samples.series import FloatArray
 from . import layout as lay
 
 GAP_SPEED = 1.5  # m/s, how a person may have moved while no data came
@@ -38,17 +38,6 @@ class Workspace:
     def oldest(self) -> int:
         """Oldest epoch to which the filter can be rolled back."""
         return self.n.item(lay.N_OLDEST)
-
-    def keep_stamps(self, newest: IntArray) -> None:
-        """Keep the stamps (N,) ns of the newest N epochs, as far as the ring holds them."""
-        newest = newest[-self.ring :]
-        stop = int(self.n[lay.N_EPOCH]) % self.ring + 1
-        start = stop - len(newest)
-        if start >= 0:
-            self.stamps[start:stop] = newest
-        else:
-            self.stamps[start:] = newest[:-stop]
-            self.stamps[:stop] = newest[-stop:]
 
     def foot(self, foot: int, item: str) -> int:
         """Return an integer of the phase machine of ``foot``: N_PHASE, N_START or N_LEAVE."""

@@ -21,7 +21,9 @@ POSE_SIGNS = np.outer(np.repeat([1.0, -1.0], 3), np.repeat([1.0, -1.0], 3))
 MEAN_ROWS = np.concatenate([np.arange(3) + start for start in (lay.E_POS, lay.E_ATT, lay.E_VEL)])
 # Where these parts are in a block, and in each of the three blocks.
 POSE_PLACES = lay.ROW * POSE_ROWS[:, None] + POSE_ROWS
-MEAN_PLACES = lay.BLOCK * np.arange(3)[:, None, None] + lay.ROW * MEAN_ROWS[:, None] + MEAN_ROWS
+MEAN_PLACES = (
+    lay.TOLD_BLOCK * np.arange(3)[:, None, None] + lay.ROW * MEAN_ROWS[:, None] + MEAN_ROWS
+)
 MEAN_SIGNS = np.outer(np.repeat([1.0, -1.0, 1.0], 3), np.repeat([1.0, -1.0, 1.0], 3))
 
 
@@ -159,10 +161,10 @@ class Update:
     def _foot(self, foot: int) -> FootEstimate | None:
         if self._told is None:
             return None
-        start = lay.OUT + foot * lay.BLOCK
-        block = self._told[0, start : start + lay.BLOCK]
+        start = lay.OUT + foot * lay.TOLD_BLOCK
+        block = self._told[0, start : start + lay.TOLD_BLOCK]
         row = self._told[0, foot * lay.O_FOOT : (foot + 1) * lay.O_FOOT]
-        return FootEstimate(row, pose_part(block.reshape(lay.ERRORS, lay.ROW)))
+        return FootEstimate(row, pose_part(block))
 
     @property
     def present(self) -> tuple[bool, bool]:
@@ -216,8 +218,8 @@ class Update:
 def mean_covariance(blocks: FloatArray, shares: tuple[float, float] = (0.5, 0.5)) -> FloatArray:
     """Return the covariance (9, 9) of the feet's mean position, rotation and velocity.
 
-    ``blocks`` (3 BLOCK,) are the covariances of the left and the right foot, and the cross part;
-    ``shares`` what each foot counts in the mean.
+    ``blocks`` (3 TOLD_BLOCK,) are the covariances of the left and the right foot, and the cross
+    part; ``shares`` what each foot counts in the mean.
     """
     own, other, cross = blocks.take(MEAN_PLACES)
     a, b = shares
@@ -226,7 +228,7 @@ def mean_covariance(blocks: FloatArray, shares: tuple[float, float] = (0.5, 0.5)
 
 
 def pose_part(block: FloatArray) -> FloatArray:
-    """Return the (6, 6) position and rotation part of a foot's covariance block.
+    """Return the (6, 6) position and rotation part of a foot's covariance block (TOLD_BLOCK,).
 
     The filter's attitude error turns the estimate back to the truth, C_hat = (I - [phi x]) C; the
     rotation by which the estimate exceeds the truth is -phi, hence the signs of the cross part.

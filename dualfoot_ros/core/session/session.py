@@ -178,16 +178,14 @@ class Session:
         out: FloatArray,
     ) -> Iterator[tuple[int, Found]]:
         """Run the epochs of ``span`` as they are; yield as `steps` does."""
-        space = self.space
+        space, w, n = self.space, self.space.w, self.space.n
         k, stop = span
         while k < stop:
             engine = self._walk.engine
-            done = engine.advance(space.w, space.n, dts, values, k, stop, out)
-            space.keep_stamps(stamps[k:done])
-            k = done
-            if space.n[lay.N_NOTICE]:
+            k = engine.advance(w, n, space.stamps, stamps, dts, values, k, stop, out)
+            if n[lay.N_NOTICE]:
                 found = self._notices.attend()
-                engine.emit(space.w, space.n, out, k - 1)
+                engine.emit(w, n, out, k - 1)
                 if found:
                     yield k - 1, found
 

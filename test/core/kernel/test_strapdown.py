@@ -196,9 +196,10 @@ def test_the_attitude_is_still_a_rotation_after_a_million_steps():
     for foot in range(2):
         w[foot * lay.FOOT + lay.ROT : foot * lay.FOOT + lay.ROT + 9] = np.eye(3).ravel()
     dts, out = np.full(chunk, 0.005), np.zeros((chunk, lay.OUT))
+    stamps = np.zeros(chunk, dtype=np.int64)
     for _ in range(100):
         samples = rng.uniform(-10.0, 10.0, size=(chunk, 12))
-        assert engine.advance(w, n, dts, samples, 0, chunk, out) == chunk
+        assert engine.advance(w, n, space.stamps, stamps, dts, samples, 0, chunk, out) == chunk
     for foot in range(2):
         r = w[foot * lay.FOOT + lay.ROT : foot * lay.FOOT + lay.ROT + 9].reshape(3, 3)
         assert np.abs(r @ r.T - np.eye(3)).max() < 1e-11

@@ -168,6 +168,7 @@ def _options(args: argparse.Namespace, calibration: Mapping[str, Correction]) ->
         calibration=calibration,
         allow_not_finite=args.allow_nan,
         feet=args.feet,
+        all_covariances=args.estimate_bag,
     )
 
 

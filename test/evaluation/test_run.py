@@ -195,3 +195,29 @@ def test_where_a_foot_is_silent_for_a_while_the_person_is_at_the_other_one(walke
     assert np.array_equal(position[gone], tracked.left.position[gone])
     middle = (tracked.left.position + tracked.right.position) / 2
     assert np.array_equal(position[~gone], middle[~gone])
+
+
+def test_with_fewer_covariances_every_figure_is_the_same(walked):
+    """Also where the truth begins late and ends early, and where there is none."""
+    middle = [truth_part(walked.truth(foot)) for foot in ("left", "right")]
+    for truths in (middle, [None, None]):
+        recording = replace(walked, left_truth=truths[0], right_truth=truths[1])
+        whole, lean = (
+            run(recording, options=RunOptions(check_feet=False, all_covariances=every))
+            for every in (True, False)
+        )
+        assert lean.to_dict() == whole.to_dict()
+        assert np.isnan(lean.trajectory.left.velocity_covariance[:, 0, 0]).mean() > 0.9
+        assert np.array_equal(lean.person.covariance, whole.person.covariance)
+
+
+def truth_part(truth):
+    part = slice(len(truth) // 4, len(truth) // 2)
+    velocity = truth.velocity[part]
+    return replace(
+        truth,
+        stamp_ns=truth.stamp_ns[part],
+        position=truth.position[part],
+        quaternion=truth.quaternion[part],
+        velocity=velocity,
+    )

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from ..samples.series import BoolArray, FloatArray
+from ..samples.series import BoolArray, FloatArray, IntArray
 
 UPPER = (0, 1, 2, 4, 5, 8)  # cells of a row-major 3x3 matrix on and above its diagonal
 CELLS = (0, 1, 2, 1, 3, 4, 2, 4, 5)  # where each cell of a symmetric one stands among these
@@ -68,6 +68,10 @@ class Covariances(NDArrayOperatorsMixin):
             return Covariances.of(_turn(np.asarray(self), rotation))
         return Covariances(self._whole, self._triangles, rotation)
 
+    def only(self, epochs: IntArray) -> FewCovariances:
+        """Return those of some epochs (K,), in order; nan takes the place of the others."""
+        return FewCovariances(len(self), epochs, Covariances.of(self[epochs]))
+
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> FloatArray:
         """Return all of them, (N, 3, 3)."""
         count = len(self._whole)
@@ -100,6 +104,43 @@ class Covariances(NDArrayOperatorsMixin):
         """Calculate with the array of all."""
         arrays = [np.asarray(x) if isinstance(x, Covariances) else x for x in inputs]
         return getattr(ufunc, method)(*arrays, **options)
+
+
+class FewCovariances(Covariances):
+    """Covariances of a walk of which only those of some epochs are known; the others are nan."""
+
+    def __init__(self, count: int, epochs: IntArray, known: Covariances) -> None:
+        """Hold those ``known`` at epochs (K,), in order, of ``count``."""
+        self._count, self._epochs, self._known = count, epochs, known
+
+    def __len__(self) -> int:
+        """Return the number of matrices."""
+        return self._count
+
+    def cut(self, keep: BoolArray | slice) -> Covariances:
+        """Return those that a mask (N,) or a slice of neighbours keeps."""
+        places = np.full(self._count, -1)
+        kept = np.arange(self._count)[keep]
+        places[kept] = np.arange(len(kept))
+        still = places[self._epochs] >= 0
+        return FewCovariances(len(kept), places[self._epochs[still]], self._known.cut(still))
+
+    def turned(self, rotation: FloatArray) -> Covariances:
+        """Return them turned by a rotation (3, 3)."""
+        return FewCovariances(self._count, self._epochs, self._known.turned(rotation))
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> FloatArray:
+        """Return all of them, (N, 3, 3)."""
+        return self._picked(np.arange(self._count)).astype(dtype or float, copy=False)
+
+    def _picked(self, at: Any) -> FloatArray:
+        """Return the matrices (..., 3, 3) of epochs ``at``, of any shape."""
+        matrices = np.full((*np.shape(at), 3, 3), np.nan)
+        if len(self._epochs):
+            place = np.minimum(np.searchsorted(self._epochs, at), len(self._epochs) - 1)
+            known = self._epochs[place] == at
+            matrices[known] = self._known[place[known]]
+        return matrices
 
 
 def _turn(matrices: FloatArray, rotation: FloatArray) -> FloatArray:

@@ -17,7 +17,7 @@ from .trajectory import FootTrajectory, Trajectory
 NOMINAL = lay.O_QUAT + 4  # position, velocity and quaternion stand side by side
 OF_FOOT = (lay.O_COV_POS, lay.O_COV_VEL, lay.O_COV_ATT)
 BLOCKS = (*OF_FOOT, *(lay.O_FOOT + block for block in OF_FOOT), lay.O_RELATIVE)
-TRIANGLES = np.array([block + cell for block in BLOCKS for cell in UPPER])
+TRIANGLES = tuple(np.array([block + cell for cell in UPPER]) for block in BLOCKS)
 SQUARES = np.array([block + cell for block in BLOCKS for cell in range(9)])
 
 
@@ -30,7 +30,8 @@ class RowStore:
         self._nominal = [np.zeros((count, NOMINAL)) for _ in range(2)]
         self._present = np.zeros((count, 2), dtype=bool)
         self._nis = np.zeros((count, 2))
-        self._triangles = np.zeros((count if covariances else 0, len(TRIANGLES)))
+        kept = len(TRIANGLES) if covariances else 0  # apart: each can be let go by itself
+        self._triangles = [np.zeros((count, len(UPPER))) for _ in range(kept)]
         self._turned = np.empty((0, len(SQUARES)))  # covariances of the rows that were turned
         self._newest, self._heading_std = -1, math.nan  # of the newest row, which no turn changes
 
@@ -40,11 +41,11 @@ class RowStore:
         for foot in range(2):
             self._present[places, foot] = rows[:, foot * lay.O_FOOT + lay.O_PRESENT] > 0.0
         self._nis[places] = zupt_nis(rows)
-        if self._with_covariances:
+        for triangles, cells in zip(self._triangles, TRIANGLES, strict=False):
             if isinstance(places, slice):  # without an array in between
-                np.take(rows, TRIANGLES, 1, self._triangles[places], mode="clip")
+                np.take(rows, cells, 1, triangles[places], mode="clip")
             else:
-                self._triangles[places] = np.take(rows, TRIANGLES, axis=1)
+                triangles[places] = np.take(rows, cells, axis=1)
         last = places.stop - 1 if isinstance(places, slice) else places[-1]
         if len(rows) and last >= self._newest:
             self._newest, self._heading_std = last, _heading_std(rows[-1])
@@ -76,10 +77,7 @@ class RowStore:
         if not self._with_covariances:
             return Covariances.unknown(self._count)
         whole = self._turned[:, 9 * number : 9 * number + 9].reshape(-1, 3, 3)
-        size = len(UPPER)
-        return Covariances(
-            whole, self._triangles[len(whole) :, size * number : size * (number + 1)]
-        )
+        return Covariances(whole, self._triangles[number][len(whole) :])
 
     def trajectory(
         self,

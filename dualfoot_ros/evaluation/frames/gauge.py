@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from ...core import FEET, EvaluationError, FloatArray, PoseSeries, Trajectory
+from ...core import (
+    FEET,
+    BoolArray,
+    EvaluationError,
+    FloatArray,
+    IntArray,
+    PoseSeries,
+    Trajectory,
+)
 from .association import Footfalls, as_slice, truth_at, within
 from .yaw_transform import FIRST_STRIDES_M, Align, Pair, YawTransform, fit
 
@@ -38,11 +46,17 @@ Markers = Mapping[str, FloatArray]
 def overlap(trajectory: Trajectory, truth: Truth) -> tuple[Trajectory, Truth]:
     """Return the epochs that lie within the truth of both feet, and the truth at their stamps."""
     stamps = trajectory.left.stamp_ns
-    keep = as_slice(within(stamps, truth[0]) & within(stamps, truth[1]))
+    keep = as_slice(known_to(stamps, truth))
     left, right = trajectory.left.cut(keep), trajectory.right.cut(keep)
     relative = trajectory.relative_covariance.cut(keep)
     known = (truth_at(stamps[keep], truth[0]), truth_at(stamps[keep], truth[1]))
     return replace(trajectory, left=left, right=right, relative_covariance=relative), known
+
+
+def known_to(stamps: IntArray, truth: Truth) -> BoolArray:
+    """Return the mask (N,) of the stamps that lie within the truth of both feet."""
+    known: BoolArray = within(stamps, truth[0]) & within(stamps, truth[1])
+    return known
 
 
 def find_transforms(

@@ -38,8 +38,7 @@ def trust_series(trajectory: Trajectory, limit_m: float) -> tuple[IntArray, list
     headings = trajectory.of_kind(EventKind.HEADING)
     known_ns = max((e.detected_ns for e in headings if not e.turn.joint), default=0)
     stamps, tracker = trajectory.left.stamp_ns, TrustTracker(limit_m)
-    wanted = np.arange(stamps[0], stamps[-1] + 1, round(EVERY_S * 1e9))
-    epochs: IntArray = np.unique(np.append(np.searchsorted(stamps, wanted), len(stamps) - 1))
+    epochs = trust_epochs(stamps)
     covariance = person_covariance(trajectory, epochs)[:, :2, :2]
     variance = mean_heading_variance(trajectory, epochs)
     found = []
@@ -51,6 +50,13 @@ def trust_series(trajectory: Trajectory, limit_m: float) -> tuple[IntArray, list
         assert trust is not None
         found.append(trust)
     return epochs, found
+
+
+def trust_epochs(stamps: IntArray) -> IntArray:
+    """Return the epochs (K,) of stamps (N,) ns at which the place is looked at, and the last."""
+    wanted = np.arange(stamps[0], stamps[-1] + 1, round(EVERY_S * 1e9))
+    epochs: IntArray = np.unique(np.append(np.searchsorted(stamps, wanted), len(stamps) - 1))
+    return epochs
 
 
 def mean_heading_variance(trajectory: Trajectory, epochs: IntArray) -> FloatArray:

@@ -67,3 +67,25 @@ def test_they_are_calculated_with_as_arrays():
     assert np.array_equal(kept(array) + kept(array), array + array)
     assert np.array_equal(kept(array) / 2 - array, array / 2 - array)
     assert np.array_equal(np.sqrt(np.abs(kept(array))), np.sqrt(np.abs(array)))
+
+
+def test_of_some_epochs_only_those_are_known():
+    array = matrices()
+    few = kept(array).only(np.array([1, 4, len(array) - 1]))
+    expected = np.full(array.shape, np.nan)
+    expected[[1, 4, -1]] = array[[1, 4, -1]]
+    assert np.array_equal(np.asarray(few), expected, equal_nan=True)
+    assert np.array_equal(few[:, 2, 2], expected[:, 2, 2], equal_nan=True)
+    assert np.array_equal(few[[4, 0, 1]], expected[[4, 0, 1]], equal_nan=True)
+    assert few.shape == array.shape
+
+
+@pytest.mark.parametrize("keep", [slice(2, 7), np.arange(COUNT) % 3 != 2])
+def test_those_of_some_epochs_can_be_cut_and_turned(keep):
+    array, turn = matrices(), about_z(0.4)
+    few = kept(array).only(np.array([1, 4, 6]))
+    whole = kept(array).turned(turn)
+    found = np.asarray(few.turned(turn).cut(keep))
+    there = np.isin(np.arange(len(array)), [1, 4, 6])[keep]
+    assert np.array_equal(found[there], np.asarray(whole.cut(keep))[there])
+    assert there.any() and np.isnan(found[~there]).all()

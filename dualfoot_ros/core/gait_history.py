@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
+
 from .kernel import Workspace
 from .kernel import layout as lay
 from .samples.series import FloatArray
+
+UNEVEN_S = 1.5e-3  # rms of the intervals about their median, of stamps as of arrivals
 
 
 class GaitHistory:
@@ -38,6 +44,14 @@ class GaitHistory:
         """Return whether ``foot`` had zero velocity at ``epoch``."""
         flags = self._space.n.item(lay.N_FLAGS + epoch % self._ring)
         return bool((flags >> foot) & 1)
+
+    @property
+    def uneven(self) -> bool:
+        """Whether stamps are so uneven that a swing tells no velocity of the landing."""
+        count = min(self._ring, self.now + 1)
+        steps = self._space.w[lay.RINGS : lay.RINGS + lay.SAMPLE * count : lay.SAMPLE]
+        off = steps - np.median(steps)
+        return math.sqrt(float(off @ off) / count) > UNEVEN_S
 
     def remembers(self, epoch: int) -> bool:
         """Return whether the filter can be rolled back to just after ``epoch``."""

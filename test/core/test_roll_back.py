@@ -79,7 +79,9 @@ def test_a_constraint_at_an_earlier_moment_equals_having_applied_it_then(back, s
         due[epoch] = due.get(epoch, 0) + 1
     for epoch, _ in follow(again, pairs, start):
         for _ in range(due.get(epoch, 0)):
-            apply = doubting(again.space, Request(epoch, True, method.apply)).apply
+            apply = doubting(
+                again.space, again._walk.gait, Request(epoch, True, method.apply)
+            ).apply
             apply(again._walk.estimate)
             again._walk.roll_back._actions.append((epoch, apply))
     assert state_bits(again.space.w) == state_bits(session.space.w)

@@ -102,7 +102,7 @@ class Boarding:
             return None
         fast = touchdown.nis > self.gate
         self._fast = [*self._fast[1:], fast]
-        if not fast:
+        if not fast or self._gait.uneven:
             return None
         velocity, first = np.array(touchdown.velocity), self._space.foot(foot, "N_START")
         if float(velocity @ velocity) > FASTEST**2:

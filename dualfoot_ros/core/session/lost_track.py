@@ -15,6 +15,7 @@ from functools import partial
 
 from ..carried.probability import nis_gate
 from ..constraints import Request
+from ..gait_history import GaitHistory
 from ..joint_estimate import JointEstimate, Outcome, Touchdown
 from ..kernel import Workspace
 from ..kernel import layout as lay
@@ -33,8 +34,15 @@ def lost_speed(touchdown: Touchdown) -> float | None:
     return speed if speed >= LEAST_SPEED else None
 
 
-def doubting(space: Workspace, request: Request, feet: Sequence[int] = (0, 1)) -> Request:
-    """Return a request that makes the places of ``feet`` unknown first, where it does not fit."""
+def doubting(
+    space: Workspace, gait: GaitHistory, request: Request, feet: Sequence[int] = (0, 1)
+) -> Request:
+    """Return a request that makes the places of ``feet`` unknown first, where it does not fit.
+
+    Where stamps are uneven, a misfit tells nothing: the covariance knows too little all the time.
+    """
+    if gait.uneven:
+        return request
     apply = partial(_apply, space, request.apply, feet)
     return Request(request.epoch, request.roll_back, apply, request.kind)
 

@@ -93,7 +93,7 @@ class Notices:
         found = [Event(EventKind.STANCE_START, stamp, FEET[foot], now)]
         touchdown = walk.estimate.touchdown(foot, LANDING_STD)
         speed = lost_speed(touchdown)
-        if speed is not None:
+        if speed is not None and not gait.uneven:
             found += self._lost(foot, speed, stamp, now)
             touchdown = walk.estimate.touchdown(foot, LANDING_STD)  # it may be forgotten by now
         if walk.watches_floor:
@@ -171,7 +171,7 @@ class Notices:
                 return []
             spacing = walk.spacing[0] if walk.spacing else 0.0
             beside = partial(walk.absences.put_beside, foot=foot, spacing_m=spacing)
-            join = doubting(walk.space, Request(moment, True, beside), [foot])
+            join = doubting(walk.space, walk.gait, Request(moment, True, beside), [foot])
             walk.roll_back.apply([join])
         found.append(walk.absences.joined(foot, now))
         walk.watch()

@@ -128,7 +128,8 @@ class WalkState:
         """Apply what a method asked for, and tell it and the caller what came of it."""
         if not requests:
             return []
-        done = self.roll_back.apply([doubting(self.space, request) for request in requests])
+        requests = [doubting(self.space, self.gait, request) for request in requests]
+        done = self.roll_back.apply(requests)
         found = []
         for request, outcome in done:
             if outcome.reason is not Reason.DID_NOT_FIT:

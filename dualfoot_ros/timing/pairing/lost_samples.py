@@ -5,7 +5,8 @@ The values are on the cubic through the two samples before the hole and the two 
 h^2 / 8 of its second derivative, so that it loses more of a foot's turning than the filter can
 make up for; the cubic loses a third of that at 100 Hz.  A force changes so fast when a foot lands
 that the cubic of a longer hole goes farther astray than the line.  So longer holes are left to
-the line, as is one that lacks the second sample on either side.
+the line, as is one that lacks the second sample on either side, or has it so near to the first one
+that the cubic is steep: stamps of arrivals are.
 """
 
 from __future__ import annotations
@@ -45,13 +46,25 @@ def cubic(stamps: Sequence[Number], values: Sequence[Sequence[Number]]) -> list[
 
 
 def is_curved(
-    first: Stamps, before: Stamps, after: Stamps, config: AlignerConfig
+    first: Stamps, before: Stamps, after: Stamps, count: Stamps, config: AlignerConfig
 ) -> bool | BoolArray:
     """Return whether the hole between ``before`` and ``after`` is curved, if a sample follows.
 
-    ``first`` is the stamp of the sample before ``before``; all are ns, or many of each.
+    ``first`` is the stamp of the sample before ``before``; all are ns, or many of each, and
+    ``count`` is the number of samples that are lost.
     """
-    return (after - before <= LONGEST_NS) & (before - first <= config.max_gap_ns)
+    short = after - before <= LONGEST_NS
+    return short & can_guide(before - first, after - before, count, config)
+
+
+def can_guide(
+    interval: Stamps, hole: Stamps, count: Stamps, config: AlignerConfig
+) -> bool | BoolArray:
+    """Return whether two samples an ``interval`` apart, ns, guide the cubic into a ``hole``.
+
+    They do not where they are nearer than half an interval of the ``count`` lost samples.
+    """
+    return (interval <= config.max_gap_ns) & (2 * (count + 1) * interval >= hole)
 
 
 @dataclass(frozen=True)
@@ -106,7 +119,10 @@ def _around(
     after = after[inside]
     around = [after + k for k in (-2, -1, 0, 1)]
     first, before, behind, last = (stamps[k] for k in around)
-    good = is_curved(first, before, behind, config) & (last - behind <= config.max_gap_ns)
+    _, hole, lost_in = np.unique(after, return_inverse=True, return_counts=True)
+    count = lost_in[hole]
+    good = is_curved(first, before, behind, count, config)
+    good &= can_guide(last - behind, behind - before, count, config)
     return lost[inside][good], [k[good] for k in around]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core import FloatArray
 from .interpolation import between
-from .lost_samples import cubic, is_curved
+from .lost_samples import can_guide, cubic, is_curved
 from .pairing_config import AlignerConfig
 from .sample_spacing import Spacing
 
@@ -58,7 +58,7 @@ class SampleBuffer:
             self.samples.popleft()
             self._trimmed = True
         sample = Sample(stamp_ns, values)
-        if self._lost_ns and stamp_ns - self.newest_ns <= self._gap_ns:
+        if self._lost_ns and self._can_guide(stamp_ns - self.newest_ns):
             self._restore([*self._measured, sample])
         self._measured.append(sample)
         self.samples.append(sample)
@@ -66,15 +66,20 @@ class SampleBuffer:
         if self.first_ns is None:
             self.first_ns = stamp_ns
         lost_ns = self._spacing.fill(stamp_ns)
-        self._lost_ns = lost_ns if self._is_curved() else []
+        self._lost_ns = lost_ns if self._is_curved(len(lost_ns)) else []
         return lost_ns
 
-    def _is_curved(self) -> bool:
+    def _is_curved(self, lost: int) -> bool:
         """Return whether the interval before the newest sample is curved where it is a hole."""
         if self._holds or len(self._measured) < 3:
             return False
         first, before, after = (sample.stamp_ns for sample in self._measured)
-        return bool(is_curved(first, before, after, self._config))
+        return bool(is_curved(first, before, after, lost, self._config))
+
+    def _can_guide(self, interval_ns: int) -> bool:
+        """Return whether the sample after the newest one is where it guides the cubic."""
+        hole_ns = self._measured[-1].stamp_ns - self._measured[-2].stamp_ns
+        return bool(can_guide(interval_ns, hole_ns, len(self._lost_ns), self._config))
 
     def _restore(self, around: list[Sample]) -> None:
         """Put the samples that were lost before the newest one into their places."""

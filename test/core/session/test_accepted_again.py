@@ -176,3 +176,19 @@ def test_a_threshold_that_was_learnt_from_dense_spikes_is_learnt_anew(seed, shar
         assert len(expected) > 10
         apart = [np.abs(found - stamp).min() for stamp in expected]
         assert max(apart) < NEAR_NS
+
+
+def late_by(stamps, most_ns, seed):
+    """Return the stamps of samples that are stamped up to ``most_ns`` late."""
+    late = np.random.default_rng(seed).integers(0, most_ns, len(stamps))
+    return np.maximum.accumulate(stamps + late) + np.arange(len(stamps))
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_landings_and_constraints_after_uneven_stamps_make_no_foot_lost_and_no_floor(seed):
+    """The stamps make them fast: each foot was lost again and again, or both were on a walkway."""
+    whole = walk(seed=seed)
+    result = tracked(Pairs(late_by(whole.stamps, 16_000_000, seed), whole.values), "idc")
+    assert not result.of_kind(EventKind.LOST) + result.of_kind(EventKind.CARRIED)
+    assert all(event.reason is not Reason.DID_NOT_FIT for event in result.events)
+    assert len(starts(result, "left")) > 20

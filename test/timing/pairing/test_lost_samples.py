@@ -125,6 +125,42 @@ def test_a_hole_of_more_than_40_ms_is_left_to_the_line(lost, line):
     assert (abs(left.angular_rate[100, 0] - straight) < 1e-12) == line
 
 
+def arriving(series, seed):
+    """Return the series with stamps as of arrivals up to 12 ms late, many soon after another."""
+    late = np.random.default_rng(seed).uniform(0.0, 12e6, len(series)).astype(np.int64)
+    late[:STAND] = 0
+    stamps = np.maximum.accumulate(series.stamp_ns + late) + np.arange(len(series))
+    return ImuSeries(stamps, series.specific_force, series.angular_rate)
+
+
+def test_a_neighbour_that_is_too_near_to_the_next_one_guides_no_cubic():
+    """The cubic overshot to 10^6 times the values, which were used as samples."""
+    whole = swinging()
+    feet = [arriving(whole, seed) for seed in range(2)]
+    left, right = align(*feet)
+    assert len(left) > 1.05 * len(whole)  # long intervals are taken for holes
+    for series in (left, right):
+        assert np.abs(series.angular_rate).max() < 1.5 * np.abs(whole.angular_rate).max()
+    aligner = Aligner()
+    pairs = [pair for *_, found in fed(aligner, *feet) for pair in found] + aligner.finish()
+    values = np.array([pair.values for pair in pairs])
+    assert np.array_equal(values, stack_pairs(left, right), equal_nan=True)
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+@pytest.mark.parametrize(("nearer_ms", "line"), [(4, False), (6, True)])
+def test_so_it_is_from_half_an_interval_on(side, nearer_ms, line):
+    whole = swinging(200)
+    gone = whole[np.arange(200) != 100]
+    second = 98 if side < 0 else 101  # beside the edge of the hole
+    gone.stamp_ns[second] -= side * nearer_ms * MS
+    gone.angular_rate[second] += 20.0
+    left, _ = align(gone, whole)
+    straight = gone.angular_rate[[99, 100]].mean(axis=0)
+    lost = np.searchsorted(left.stamp_ns, whole.stamp_ns[100])
+    assert np.allclose(left.angular_rate[lost], straight, atol=0.3) == line
+
+
 def test_what_is_held_is_held_in_a_hole_too():
     whole = swinging(200)
     gone = whole[np.arange(200) != 100]

@@ -215,6 +215,7 @@ def swaying(seed: int) -> tuple[np.ndarray, np.ndarray]:
     return walk(**stand, seed=seed).values, np.hstack(turned)
 
 
+@cache
 def errors_and_scatters(seconds: float, seeds: range) -> tuple[np.ndarray, np.ndarray]:
     """Return the errors (M, 3) of the bias of a stand, and what it says they are (M,), rad/s."""
     count, errors, scatters = round(seconds * RATE), [], []

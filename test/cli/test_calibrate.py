@@ -38,13 +38,13 @@ def tumbled(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def bags(tmp_path_factory):
-    """Return walks as bags: a figure of eight, the same exchanged, a straight line."""
+    """Return 50 s of walks as bags: a figure of eight, the same exchanged, a straight line."""
     folder = tmp_path_factory.mktemp("walks")
-    eight = simulate(WalkConfig(route="figure_eight", rate=60.0), seed=1)
-    line = simulate(WalkConfig(route="straight", rate=60.0), seed=1)
-    write_bag(folder / "eight", Recording(eight.left, eight.right))
-    write_bag(folder / "exchanged", Recording(eight.right, eight.left))
-    write_bag(folder / "line", Recording(line.left, line.right))
+    for route, names in (("figure_eight", ("eight", "exchanged")), ("straight", ("line",))):
+        made = simulate(WalkConfig(route=route, rate=60.0, standing=5.0), seed=1)
+        feet = made.left[:3000], made.right[:3000]
+        for name, order in zip(names, (feet, feet[::-1]), strict=False):
+            write_bag(folder / name, Recording(*order))
     return {name: str(folder / name) for name in ("eight", "exchanged", "line")}
 
 

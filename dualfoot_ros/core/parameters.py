@@ -8,14 +8,14 @@ documentation are all generated from, or checked against, these declarations.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
 from typing import Any, ClassVar, Self, TypeVar, get_args, get_origin, get_type_hints
 
 from .errors import ConfigError
 
 Value = TypeVar("Value", bool, int, float, str, tuple[float, float], tuple[float, float, float])
-Choices = tuple[str, ...] | Callable[[], tuple[str, ...]]
+Choices = tuple[str, ...] | Callable[[], Sequence[str]]
 SCALARS = (bool, int, float, str)
 
 
@@ -38,7 +38,7 @@ class ParameterSpec:
     unit: str
     minimum: float | None
     maximum: float | None
-    choices: tuple[str, ...] | None
+    choices: Sequence[str] | None
     description: str
 
     @property

@@ -9,7 +9,7 @@ import hashlib
 import os
 import sys
 import tempfile
-from importlib import metadata
+from importlib.machinery import PathFinder
 from pathlib import Path
 
 from ..kernel import MODULES, kernel_functions
@@ -62,7 +62,13 @@ def _translation() -> list[bytes]:
 
 
 def _numba_version() -> str:
-    try:
-        return metadata.version("numba")
-    except metadata.PackageNotFoundError:
+    """Return the name of what numba was installed from, in which its version stands.
+
+    ``importlib.metadata`` would read it from there, and takes as long to load as the kernel.
+    """
+    found = PathFinder.find_spec("numba")
+    if found is None or found.origin is None:
         return "none"
+    package = Path(found.origin).parent
+    beside = sorted(each.name for each in package.parent.glob("numba-*"))
+    return " ".join(beside) or f"of {package.stat().st_mtime_ns}"

@@ -7,8 +7,8 @@ is that of the method and whose object is a class derived from :class:`Method`.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Container, Iterator, Mapping
-from importlib.metadata import EntryPoint, entry_points
+from collections.abc import Container, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, overload
 
 from ..errors import ConfigError
 from ..parameters import Parameters
@@ -23,6 +23,9 @@ from .spacing_vector import SpacingVector
 from .step_length import StepLength
 from .varying_distance import VaryingDistance
 from .zupt import ZuptOnly
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 ENTRY_POINTS = "dualfoot_ros.methods"
 OWN: tuple[type[Method], ...] = (
@@ -42,7 +45,11 @@ OWN: tuple[type[Method], ...] = (
 
 
 class MethodRegistry(Mapping[str, type[Method]]):
-    """Classes of methods by name; those of other packages are looked for at the first use."""
+    """Classes of methods by name.
+
+    Those of other packages are looked for when a name is none of this package, or all are asked
+    for: to look through all that is installed takes as long as to import the kernel.
+    """
 
     def __init__(self, own: tuple[type[Method], ...]) -> None:
         """Start with the methods ``own`` of this package."""
@@ -51,7 +58,7 @@ class MethodRegistry(Mapping[str, type[Method]]):
 
     def __getitem__(self, name: str) -> type[Method]:
         """Return the class of a method."""
-        return self._methods()[name]
+        return self.own[name] if name in self.own else self._methods()[name]
 
     def __iter__(self) -> Iterator[str]:
         """Yield the names, this package's first."""
@@ -61,11 +68,13 @@ class MethodRegistry(Mapping[str, type[Method]]):
         """Return how many methods there are."""
         return len(self._methods())
 
-    def names(self) -> tuple[str, ...]:
+    def names(self) -> Sequence[str]:
         """Return the names, this package's first."""
-        return tuple(self)
+        return _Names(self)
 
     def _methods(self) -> dict[str, type[Method]]:
+        from importlib.metadata import entry_points  # here: it brings the parser of e-mails
+
         if self._all is None:
             self._all = dict(self.own)
             for point in entry_points(group=ENTRY_POINTS):
@@ -81,6 +90,26 @@ class MethodRegistry(Mapping[str, type[Method]]):
             warnings.warn(text, stacklevel=2)
         else:
             methods[point.name] = method
+
+
+class _Names(Sequence[str]):
+    """Names of a registry; only who asks for all of them has other packages looked for."""
+
+    def __init__(self, methods: MethodRegistry) -> None:
+        self._methods = methods
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._methods
+
+    @overload
+    def __getitem__(self, index: int) -> str: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[str]: ...
+    def __getitem__(self, index: int | slice) -> str | Sequence[str]:
+        return tuple(self._methods)[index]
+
+    def __len__(self) -> int:
+        return len(self._methods)
 
 
 def _load(point: EntryPoint, taken: Container[str]) -> type[Method]:

@@ -191,3 +191,15 @@ def test_only_those_who_answer_are_asked_at_the_start_of_a_stance():
         name for name in METHODS if METHODS[name](METHODS[name].config_class()).asks_at_start
     }
     assert asking == {"varying_distance"}
+
+
+def test_other_packages_are_looked_for_only_for_names_that_are_not_ours():
+    """To look through all that is installed is a tenth of what a short command takes."""
+    program = (
+        "import sys; sys.modules['importlib.metadata'] = None; "  # an import of it fails
+        "from dualfoot_ros.core import METHODS, DualFootTracker, TrackerConfig; "
+        "DualFootTracker(TrackerConfig(method='idc')); print(METHODS['idc'].name)"
+    )
+    command = [sys.executable, "-c", program]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.stdout == "idc\n", done.stderr

@@ -24,6 +24,7 @@ from ..samples.series import FloatArray
 LANDING_STD = 0.06  # m/s, velocity of a sensor at the start of a stance
 ALIKE = 0.5  # share of their mean by which two landings may differ
 STEADY = 0.5  # share of its velocity that a landing may gain until its stance is confirmed
+ODD = 1.25  # times its velocity with which no foot lands on a floor that it is on, or steps off
 FASTEST = 1.0  # m/s, of a floor that one steps on
 LONGEST_S = 3.0  # from the landing of one foot to that of the other
 
@@ -61,16 +62,25 @@ class Boarding:
         self._space, self._gait, self.gate = space, gait, math.inf
         self._before: Landing | None = None
         self._fast = [False, False, False]  # the newest landings: beyond the gate
+        self._speeds = [0.0, 0.0]  # of the newest landings beyond the gate, m/s
 
     def forget(self) -> None:
         """Forget the landings before."""
         self._before = None
         self._fast = [False, False, False]
+        self._speeds = [0.0, 0.0]
 
     def mistrust(self) -> None:
         """Take note that something else has moved the feet: landings tell nothing for a while."""
         self._before = None
         self._fast = [True, True, True]
+
+    def contradicts(self, velocity: FloatArray) -> bool:
+        """Return whether a foot has landed as on no floor with this velocity (3,), nor off it.
+
+        It is the landing before the newest one, which would have made both another step.
+        """
+        return self._speeds[0] > ODD * math.sqrt(float(velocity @ velocity))
 
     def landed(self, foot: int, touchdown: Touchdown) -> Step | None:
         """Take the stance of ``foot`` that is confirmed; return a step between floors."""
@@ -102,6 +112,8 @@ class Boarding:
             return None
         fast = touchdown.nis > self.gate
         self._fast = [*self._fast[1:], fast]
+        speed = math.hypot(*touchdown.velocity) if fast and not self._gait.uneven else 0.0
+        self._speeds = [self._speeds[1], speed]
         if not fast or self._gait.uneven:
             return None
         velocity, first = np.array(touchdown.velocity), self._space.foot(foot, "N_START")

@@ -13,6 +13,7 @@ from ..gait_history import GaitHistory
 from ..groups import FloorConfig
 from ..joint_estimate import Outcome, Touchdown
 from ..kernel import Workspace
+from ..kernel import layout as lay
 from ..results.events import Event, EventKind
 from ..results.payloads import FloorKind, Reason, Ride
 from ..roll_back import RollBack
@@ -77,9 +78,11 @@ class Carriage:
             return []
         step = self._boarding.landed(foot, touchdown)
         self._doubt()
-        if step is None:
-            return []
-        return [self._change(step, self._gait.stamp(self._space.epoch))]
+        if step is not None:
+            return [self._change(step, self._gait.stamp(self._space.epoch))]
+        if self.kind is FloorKind.WALKWAY and self._boarding.contradicts(self._ground.velocity):
+            return [self._take_back(self._gait.stamp(self._space.epoch))]
+        return []
 
     def constrained(self, outcome: Outcome) -> None:
         """Take note of a constraint; one that does not fit moves the feet as a floor would."""
@@ -117,6 +120,21 @@ class Carriage:
         self.kind = None if over else FloorKind.WALKWAY
         self._began_ns = step.stamp_ns
         return Event(EventKind.CARRIED, step.stamp_ns, "both", now, step.velocity, payload=ride)
+
+    def _take_back(self, now: int) -> Event:
+        """Let the floor be at rest: landings on it have told that it is none.
+
+        The feet have been at rest against the world since, and what they were moved is unknown.
+        """
+        ride = self._walkway(self._ground.velocity, over=True)
+        moved = math.hypot(*ride.velocity) * self._ground.seconds
+        self._ground.blur(lay.E_POS, moved, 0.0)
+        apply = partial(self._ground.change, by=np.zeros(3), ride=ride)
+        self._roll_back.apply([Request(self._space.epoch, False, apply)])
+        self._fix()
+        self.kind = None
+        self._boarding.mistrust()
+        return Event(EventKind.CARRIED, now, "both", now, payload=ride)
 
     def _walkway(self, velocity: FloatArray, *, over: bool) -> Ride:
         x, y = float(velocity[0]), float(velocity[1])

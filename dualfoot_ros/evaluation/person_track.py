@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import FloatArray, FootTrajectory, IntArray, Trajectory, quaternion_matrix
+from ..core import Covariances, FloatArray, FootTrajectory, IntArray, Trajectory
 from .frames.association import Footfalls, seconds
 from .gait import forward_axis
-from .person_shares import person_covariance, person_position, person_shares
+from .gait.foot_contacts import stood_attitudes
+from .person_shares import PersonCovariances, person_position, person_shares
 
-BLOCK = 1 << 14  # epochs whose matrices are made at once
 CHI2_95_PLANE = 5.991
 """95 % quantile of chi-square with two degrees of freedom."""
 
@@ -33,10 +33,14 @@ class PersonTrack:
 
     stamp_ns: IntArray
     position: FloatArray
-    covariance: FloatArray
+    covariance: Covariances | FloatArray
     heading: FloatArray
     floor_m: FloatArray
     walked_m: FloatArray
+
+    def at(self, rows: slice | IntArray) -> PersonTrack:
+        """Return some epochs of it."""
+        return PersonTrack(**{name: values[rows] for name, values in vars(self).items()})
 
     @property
     def radius_95_m(self) -> FloatArray:
@@ -63,21 +67,11 @@ def person_track(trajectory: Trajectory) -> PersonTrack:
     return PersonTrack(
         stamp_ns=left.stamp_ns,
         position=person_position(trajectory),
-        covariance=_covariance(trajectory),
+        covariance=PersonCovariances(trajectory),
         heading=_mean_heading(headings[0], headings[1], shares),
         floor_m=shares[0] * floors[0] + shares[1] * floors[1],
         walked_m=np.cumsum(shares[0] * steps[0] + shares[1] * steps[1]),
     )
-
-
-def _covariance(trajectory: Trajectory) -> FloatArray:
-    """Return the covariance (N, 3, 3) m^2 of the person's position, some epochs at a time."""
-    count = len(trajectory.left)
-    found = np.empty((count, 3, 3))
-    for first in range(0, count, BLOCK):
-        rows = slice(first, first + BLOCK)
-        found[rows] = person_covariance(trajectory, rows)
-    return found
 
 
 def _held(foot: FootTrajectory, falls: Footfalls, values: FloatArray) -> FloatArray:
@@ -94,7 +88,7 @@ def _heading(foot: FootTrajectory, falls: Footfalls) -> FloatArray:
     axis = forward_axis(foot, falls)
     if axis is None:
         return np.zeros(len(foot))
-    ahead = np.array([quaternion_matrix(foot.quaternion[at]) @ axis for at in falls.middle])
+    ahead = stood_attitudes(foot, falls) @ axis
     stood = np.full(len(foot), np.nan)
     stood[falls.middle] = np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0]))
     return _held(foot, falls, stood)

@@ -10,7 +10,6 @@ import itertools
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
 from ..core import STANDARD_GRAVITY, FloatArray, ImuSeries, IntArray
 
@@ -85,14 +84,26 @@ def _average(series: ImuSeries) -> ImuSeries:
 
 def _windows(force: FloatArray, size: int) -> tuple[FloatArray, FloatArray]:
     """Return mean (N - size + 1, 3) and unrest (N - size + 1,) m/s^2 of every window."""
-    windows = sliding_window_view(force, size, axis=0)
-    parts = np.array_split(windows, max(1, len(windows) // TOGETHER))
-    means = np.concatenate([part.mean(axis=2) for part in parts])
-    scatter = np.concatenate([np.sqrt(part.var(axis=2).sum(axis=1)) for part in parts])
+    count = len(force) - size + 1
+    means, scatter = np.empty((count, 3)), np.empty(count)
+    for start in range(0, count, TOGETHER):
+        part = slice(start, min(start + TOGETHER, count))
+        rows = [force[part.start + k : part.stop + k] for k in range(size)]
+        means[part] = _sum(rows) / size
+        off = [row - means[part] for row in rows]
+        scatter[part] = np.sqrt((_sum([each * each for each in off]) / size).sum(axis=1))
     norms = np.linalg.norm(means, axis=1)
     few = max(1, round(QUIETEST * len(scatter)))
     gravity = np.median(norms[np.argpartition(scatter, few - 1)[:few]])
     return means, scatter + np.abs(norms - gravity)
+
+
+def _sum(arrays: list[FloatArray]) -> FloatArray:
+    """Return the sum of arrays, one after the other."""
+    total = arrays[0].copy()
+    for each in arrays[1:]:
+        total += each
+    return total
 
 
 def _quiet_instants(unrest: FloatArray, apart: int) -> IntArray:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core import FloatArray, IntArray, RecordingError
 from . import cdr
@@ -20,6 +21,7 @@ PRESSURE_DOUBLES = 2  # pressure, its variance
 TRUTH_DOUBLES = 85  # pose (3 + 4), covariance (36), twist (3 + 3), covariance (36)
 RATE = slice(13, 16)
 FORCE = slice(25, 28)
+MOST_ROOM = 1 << 22  # rows for which room is made because a bag says that it has as many
 
 
 class _Layout(NamedTuple):
@@ -61,15 +63,42 @@ class Table:
         return self.values[:, -3:]
 
 
+class _Rows:
+    """Arrays one below the other in a single one, which grows where its room was too little.
+
+    Thousands of small ones, put together at the end, would leave as much memory that is free and
+    of no use: the heap is full of holes then.
+    """
+
+    def __init__(self, room: int) -> None:
+        self._room, self._count = min(room, MOST_ROOM), 0
+        self._array: NDArray[Any] | None = None
+
+    def add(self, rows: NDArray[Any]) -> None:
+        """Add rows (K, ...) at the end."""
+        end = self._count + len(rows)
+        if self._array is None or end > len(self._array):
+            larger = np.empty((max(self._room, 2 * end), *rows.shape[1:]), dtype=rows.dtype)
+            if self._array is not None:
+                larger[: self._count] = self._array[: self._count]
+            self._array = larger
+        self._array[self._count : end] = rows
+        self._count = end
+
+    def all(self) -> NDArray[Any]:
+        """Return what was added; there is something."""
+        assert self._array is not None
+        return self._array[: self._count]
+
+
 class TableBuilder:
     """A table in the making: every block is decoded when it comes, and only its values stay."""
 
-    def __init__(self, msgtype: str, topic: str) -> None:
+    def __init__(self, msgtype: str, topic: str, expected: int = 0) -> None:
+        """Begin the table of a topic of which so many messages are ``expected``."""
         self._topic, self._layout = topic, _LAYOUT[msgtype]
-        self._stamps: list[IntArray] = []
-        self._values: list[FloatArray] = []
-        self._logged: list[IntArray] = []
-        self._files: list[IntArray] = []
+        self._stamps, self._values, self._logged = (_Rows(expected) for _ in range(3))
+        self._files: list[tuple[int, int]] = []  # number of the file, and of messages in a row
         self._texts: list[str] = []
         self._count = 0
         self._sorted = True
@@ -86,11 +115,11 @@ class TableBuilder:
         fast = cdr.decode(block.rows, layout.doubles, layout.texts, layout.kept)
         stamps, values, texts = fast or self._one_by_one(block)
         self._texts = self._texts or texts
-        self._stamps.append(stamps)
-        self._values.append(values)
-        self._logged.append(block.log_ns)
+        self._stamps.add(stamps)
+        self._values.add(values)
+        self._logged.add(block.log_ns)
         self._sorted = self._sorted and block.file is None
-        self._files.append(np.full(len(stamps), block.file or 0, dtype=np.int64))
+        self._files.append((block.file or 0, len(stamps)))
         self._count += len(stamps)
 
     def table(self) -> Table:
@@ -99,10 +128,13 @@ class TableBuilder:
             empty = np.empty(0, dtype=np.int64)
             columns = sum(len(range(*p.indices(self._layout.doubles))) for p in self._layout.kept)
             return Table(empty, np.empty((0, columns)), [""] * self._layout.texts, empty)
-        stamps, logged = np.concatenate(self._stamps), np.concatenate(self._logged)
-        values, files = np.concatenate(self._values), np.concatenate(self._files)
-        self._values.clear()
-        if self._sorted or bool((np.diff(logged) >= 0).all() and (np.diff(files) >= 0).all()):
+        stamps, values, logged = (
+            each.all() for each in (self._stamps, self._values, self._logged)
+        )
+        if self._sorted:
+            return Table(stamps, values, self._texts, logged)
+        files = np.repeat(*np.array(self._files, dtype=np.int64).T)
+        if bool((np.diff(logged) >= 0).all() and (np.diff(files) >= 0).all()):
             return Table(stamps, values, self._texts, logged)
         order = recorded_order(logged, files)
         return Table(stamps[order], values[order], self._texts, logged[order])

@@ -120,7 +120,8 @@ def _read_raw(path: Path, topics: Topics, progress: Progress | None) -> _Raw:
             if msgtype == INCREMENTS_TYPE:
                 raw.texts[topic] = []
             else:
-                raw.tables[topic] = messages.TableBuilder(msgtype, topic)
+                expected_count = max(0, source.topics[topic].messages)
+                raw.tables[topic] = messages.TableBuilder(msgtype, topic, expected_count)
         _take_messages(path, source, raw, progress)
         return raw._replace(cut=source.cut)
 

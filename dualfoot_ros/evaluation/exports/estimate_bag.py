@@ -63,7 +63,7 @@ def _person(trajectory: Trajectory, person: PersonTrack) -> OdometrySeries:
         stamp_ns=person.stamp_ns,
         position=person.position,
         quaternion=quaternion,
-        position_covariance=person.covariance,
+        position_covariance=person.covariance[:],
         yaw_variance=(left.attitude_covariance + right.attitude_covariance)[:, 2, 2] / 2,
         velocity=turned.apply((left.velocity + right.velocity) / 2, inverse=True),
         velocity_covariance=_in_body(turned.as_matrix(), velocity_covariance),

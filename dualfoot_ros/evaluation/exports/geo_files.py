@@ -38,7 +38,7 @@ class _Points:
         return cls(
             origin.degrees(person)[rows],
             (person.floor_m - person.floor_m[0])[rows],
-            person.radius_95_m[rows],
+            person.at(rows).radius_95_m,
             person.stamp_ns[rows].tolist(),
         )
 

@@ -47,7 +47,7 @@ def _write_csv(path: Path, person: PersonTrack) -> Path:
 
 def _values(person: PersonTrack, rows: slice) -> FloatArray:
     """Return the columns behind the stamps (K, 12) of some epochs."""
-    some = PersonTrack(**{name: value[rows] for name, value in vars(person).items()})
+    some = person.at(rows)
     c = some.covariance
     return np.column_stack(
         [

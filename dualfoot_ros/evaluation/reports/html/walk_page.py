@@ -130,7 +130,8 @@ def _tiles(run: Evaluation, person: PersonTrack) -> dict[str, str]:
     elif run.closure is not None:
         name = "loop closure" if run.closed_loop else "start to end"
         figures[name] = f"{number(run.closure.mean_m)} m"
-    figures["95 % radius at the end, claimed"] = f"{person.radius_95_m[-1]:.2f} m"
+    radius = float(person.at(slice(-1, None)).radius_95_m[-1])
+    figures["95 % radius at the end, claimed"] = f"{radius:.2f} m"
     figures["height at the end"] = f"{person.floor_m[-1] - person.floor_m[0]:+.2f} m"
     figures["time"] = clock(person)
     speed = run.gait.parameters["speed_m_per_s"].both.mean

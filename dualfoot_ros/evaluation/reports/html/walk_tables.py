@@ -36,15 +36,16 @@ def _walk(run: Evaluation, person: PersonTrack) -> dict[str, FloatArray]:
     feet = run.trajectory.left, run.trajectory.right
     left, right = (foot.position[rows] for foot in feet)
     both = feet[0].present[rows] & feet[1].present[rows]
-    longer, shorter, angle = (axis[rows] for axis in person.axes)
+    some = person.at(rows)
+    longer, shorter, angle = some.axes
     columns = {
         "time": seconds(person.stamp_ns, int(person.stamp_ns[0]))[rows],
-        "walked": person.walked_m[rows],
-        "x": person.position[rows, 0],
-        "y": person.position[rows, 1],
-        "floor": person.floor_m[rows],
-        "sigma_z": np.sqrt(np.maximum(person.covariance[rows, 2, 2], 0.0)),
-        "radius": person.radius_95_m[rows],
+        "walked": some.walked_m,
+        "x": some.position[:, 0],
+        "y": some.position[:, 1],
+        "floor": some.floor_m,
+        "sigma_z": np.sqrt(np.maximum(some.covariance[:, 2, 2], 0.0)),
+        "radius": some.radius_95_m,
         "major": np.sqrt(CHI2_95_PLANE * np.maximum(longer, 0.0)),
         "minor": np.sqrt(CHI2_95_PLANE * shorter),
         "angle": np.degrees(angle),

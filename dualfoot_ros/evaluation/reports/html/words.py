@@ -89,7 +89,7 @@ def _seconds(person: PersonTrack) -> int:
 
 def _errors(run: Evaluation, person: PersonTrack) -> Iterator[Sentence]:
     report = run.truth_report
-    radius = float(person.radius_95_m[-1])
+    radius = float(person.at(slice(-1, None)).radius_95_m[-1])
     claim = f"the filter claims to know the place at the end within {radius:.2f} m (95 %)"
     if report is None:
         yield Sentence(f"There is no truth to compare with; horizontally, {claim}.")

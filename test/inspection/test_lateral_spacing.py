@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from hypothesis import strategies as st
 from dualfoot_ros.core import StanceEpochs, StancePassing, stance_passings
 from dualfoot_ros.inspection import side_by_side, walk_findings
 from dualfoot_ros.recording.importers import ImportOptions, import_recording
-from dualfoot_ros.simulation import SensorConfig, WalkConfig, simulate
+from dualfoot_ros.simulation import SensorConfig, WalkConfig, rigid_pair, simulate, walk
 
 from .tracks import track_feet
 
@@ -107,12 +108,17 @@ def test_the_scatter_is_that_of_the_steps():
     assert found.scatter_m == pytest.approx(0.02, rel=0.2)
 
 
+@cache
+def walked(route, seed):
+    return walk(WalkConfig(route=route, rate=60.0), seed)
+
+
 @pytest.mark.parametrize("errors", ["independent", "mirrored"])
 @pytest.mark.parametrize("route", ["rectangle", "figure_eight", "L"])
 def test_the_uncertainty_is_honest_on_simulated_walks(route, errors):
     sigmas = []
     for seed in range(3):
-        made = simulate(WalkConfig(route=route, rate=60.0), SensorConfig(errors=errors), seed=seed)
+        made = simulate(walked(route, seed), SensorConfig(errors=errors), seed=seed)
         found = spacing_of(made.left, made.right)
         sigmas.append((found.spacing_m - 0.145) / found.std_m)
     assert np.abs(sigmas).max() < 3.0
@@ -141,7 +147,5 @@ def test_of_the_real_walks_all_but_the_laps_show_exchanged_feet_and_none_a_false
 
 
 def test_two_sensors_on_one_shoe_are_no_exchanged_feet():
-    from dualfoot_ros.simulation import rigid_pair, walk
-
     made = simulate(rigid_pair(walk(WalkConfig(route="L"), 1), 0.014), seed=1)
     assert list(walk_findings(track_feet(made.left, made.right))) == []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -87,8 +88,30 @@ def correlate(first: Signal, second: Signal) -> Correlation:
     from scipy.signal import correlate as sums
 
     a, b = first.values, second.values
-    product = sums(a, b)
     shift = np.arange(-(len(b) - 1), len(a))
+    return _normalised(first, second, shift, sums(a, b))
+
+
+def correlate_near(first: Signal, second: Signal, lag_s: float, within_s: float) -> Correlation:
+    """Return what :func:`correlate` does, at lags near ``lag_s`` only, and one more each way."""
+    a, b = first.values, second.values
+    middle = lag_s - (first.start_ns - second.start_ns) * 1e-9
+    low = max(math.floor((middle - within_s) / STEP_S) - 1, -(len(b) - 1))
+    high = min(math.ceil((middle + within_s) / STEP_S) + 1, len(a) - 1)
+    if low > high:
+        return Correlation(np.empty(0), np.empty(0))
+    wanted = np.arange(-high, len(a) - low)  # of the second signal, zero beyond its ends
+    inside = (wanted >= 0) & (wanted < len(b))
+    beside = np.where(inside, b[np.clip(wanted, 0, len(b) - 1)], 0.0)
+    product = np.correlate(beside, a, mode="valid")[::-1]
+    return _normalised(first, second, np.arange(low, high + 1), product)
+
+
+def _normalised(
+    first: Signal, second: Signal, shift: IntArray, product: FloatArray
+) -> Correlation:
+    """Return the correlation from the products of the values that overlap at each ``shift``."""
+    a, b = first.values, second.values
     energy_a = _energy(a, np.maximum(shift, 0), np.minimum(shift + len(b), len(a)))
     energy_b = _energy(b, np.maximum(-shift, 0), np.minimum(len(a) - shift, len(b)))
     least = LEAST_ENERGY * min(float(a @ a), float(b @ b)) + 1e-12

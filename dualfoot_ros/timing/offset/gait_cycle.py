@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from ...core import FloatArray, TimingError
-from .correlation import STEP_S, Correlation, Signal, correlate
+from .correlation import STEP_S, Correlation, Signal, correlate_near
 from .result import DOUBT
 
 LEAST_PEAK = 0.6  # correlation below which these are not two feet walking
@@ -206,7 +206,7 @@ def offsets_of_windows(
         if min(len(part.values), len(other.values)) < size // 2 or part.values.mean() <= brisk:
             continue
         walking += 1
-        lag = _offset_near(correlate(part, other), whole)
+        lag = _offset_near(correlate_near(part, other, whole.lag_s, 0.75 * whole.cycle_s), whole)
         if lag is not None:
             out.append((at + 0.5 * window_s + right.start_ns * 1e-9, lag))
     return np.array(out).reshape(-1, 2), walking

@@ -98,11 +98,11 @@ def find_shakes(left: ImuSeries, right: ImuSeries) -> list[Shake]:
         return []
     norms = [signal_of(s, np.linalg.norm(s.angular_rate, axis=1), SMOOTH_S) for s in (left, right)]
     size, hop = round(WINDOW_S / STEP_S), round(HOP_S / STEP_S)
-    found = []
+    found, stretches = [], Stretches(norms[1].values, size)
     for begin in range(0, len(norms[0].values) - size + 1, hop):
         part = norms[0].part(begin, begin + size)
         if np.sqrt(np.mean(part.values**2)) >= LEAST_RATE:
-            shake = _match(part, norms[1], left, right)
+            shake = _match(part, norms[1], stretches, left, right)
             if shake is not None:
                 found.append(shake)
     if not found:
@@ -111,8 +111,10 @@ def find_shakes(left: ImuSeries, right: ImuSeries) -> list[Shake]:
     return [s for s in found if abs(s.lag_s - best.lag_s) < AGREE_S]
 
 
-def _match(part: Signal, other: Signal, left: ImuSeries, right: ImuSeries) -> Shake | None:
-    value = _coefficient(part.values, other.values)
+def _match(
+    part: Signal, other: Signal, stretches: Stretches, left: ImuSeries, right: ImuSeries
+) -> Shake | None:
+    value = stretches.coefficient(part.values)
     if not len(value):
         return None
     top = int(np.argmax(value))
@@ -132,23 +134,27 @@ def _match(part: Signal, other: Signal, left: ImuSeries, right: ImuSeries) -> Sh
     return Shake(middle_s, lag_s, residual, float(peak), second)
 
 
-def _coefficient(window: FloatArray, values: FloatArray) -> FloatArray:
-    """Return Pearson's correlation of ``window`` (n,) with every stretch of ``values``."""
-    from scipy.signal import correlate
+class Stretches:
+    """All stretches of ``count`` values of a signal, which windows of that size are put beside."""
 
-    count = len(window)
-    if len(values) < count:
-        return np.empty(0)
-    centred = window - window.mean()
-    sums = np.concatenate(([0.0], np.cumsum(values)))
-    squares = np.concatenate(([0.0], np.cumsum(values**2)))
-    total = sums[count:] - sums[:-count]
-    variance = squares[count:] - squares[:-count] - total**2 / count
-    product = correlate(values, centred, mode="valid")
-    correlation: FloatArray = product / np.sqrt(
-        np.maximum(variance, 1e-9) * max(float(centred @ centred), 1e-9)
-    )
-    return correlation
+    def __init__(self, values: FloatArray, count: int) -> None:
+        self._values = values
+        sums = np.concatenate(([0.0], np.cumsum(values)))
+        squares = np.concatenate(([0.0], np.cumsum(values**2)))
+        total = sums[count:] - sums[:-count]
+        self._variance = np.maximum(squares[count:] - squares[:-count] - total**2 / count, 1e-9)
+
+    def coefficient(self, window: FloatArray) -> FloatArray:
+        """Return Pearson's correlation of ``window`` (n,) with every stretch."""
+        from scipy.signal import correlate
+
+        if not len(self._variance):
+            return np.empty(0)
+        centred = window - window.mean()
+        product = correlate(self._values, centred, mode="valid")
+        energy = max(float(centred @ centred), 1e-9)
+        correlation: FloatArray = product / np.sqrt(self._variance * energy)
+        return correlation
 
 
 def _residual(part: Signal, left: ImuSeries, right: ImuSeries, lag_s: float) -> float:

@@ -68,7 +68,7 @@ def test_after_the_exact_hard_constraint_the_feet_are_c0_apart_to_a_nanometre(se
 
 
 @given(seeds, shares)
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 def test_no_point_at_c0_costs_less_than_the_exact_solution(seed, share):
     """Eq. (14) over the sphere of eq. (15), searched by a general optimiser in two angles."""
     space, r, P, c0 = problem(seed, share)

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from dualfoot_ros.evaluation import RunOptions, run
+from dualfoot_ros.core import TrackerConfig
+from dualfoot_ros.evaluation import evaluate, track, truth_of
 from dualfoot_ros.recording import Recording
 from dualfoot_ros.simulation import simulate
 
@@ -17,8 +18,8 @@ def error_m(walk, lost, seed):
         keep[:STAND] = True
         feet.append(series[keep])
     recording = Recording(*feet, walk.left_truth, walk.right_truth)
-    result = run(recording, options=RunOptions(check_feet=False))
-    return result.truth_report.midpoint.rmse_m
+    found = evaluate(track(recording, TrackerConfig()), truth=truth_of(recording))
+    return found.truth_report.midpoint.rmse_m
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,7 @@
 """What was published live, put together afterwards, is what an offline run gives."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -13,10 +14,21 @@ from dualfoot_ros.timing import align
 
 
 @pytest.fixture(scope="module")
-def pairs():
-    """Return the samples of a straight walk, its first half minute, on one grid."""
-    made = simulate(WalkConfig(route="straight"), seed=6)
+def made():
+    """Return a simulated straight walk."""
+    return simulate(WalkConfig(route="straight"), seed=6)
+
+
+@pytest.fixture(scope="module")
+def pairs(made):
+    """Return the samples of its first half minute on one grid."""
     return align(made.left[:3000], made.right[:3000])
+
+
+@pytest.fixture(scope="module")
+def heard(pairs):
+    """Return a function that gives what is published of them with a method."""
+    return cache(lambda method: live(pairs, TrackerConfig.from_mapping({"method": method})))
 
 
 def live(pairs, config):
@@ -59,9 +71,9 @@ def rows(messages) -> FootTrajectory:
 
 
 @pytest.mark.parametrize("method", ["zupt", "idc", "spacing_vector"])
-def test_it_is_the_trajectory_of_an_offline_run_to_the_bit(pairs, method):
+def test_it_is_the_trajectory_of_an_offline_run_to_the_bit(pairs, heard, method):
     config = TrackerConfig.from_mapping({"method": method})
-    feet, relative, events = live(pairs, config)
+    feet, relative, events = heard(method)
     put_together = published_trajectory(*feet, events, method=method, relative_covariance=relative)
     offline = DualFootTracker(config, engine="compiled").run(*pairs)
     for foot in ("left", "right"):
@@ -77,17 +89,16 @@ def test_it_is_the_trajectory_of_an_offline_run_to_the_bit(pairs, method):
     )
 
 
-def test_an_unknown_covariance_between_the_feet_leaves_its_nees_out(pairs):
-    feet, _, events = live(pairs, TrackerConfig.from_mapping({"method": "zupt"}))
-    made = simulate(WalkConfig(route="straight"), seed=6)
+def test_an_unknown_covariance_between_the_feet_leaves_its_nees_out(made, heard):
+    feet, _, events = heard("zupt")
     found = published_trajectory(*feet, events, method="zupt")
     metrics = evaluate(found, truth=(made.left_truth, made.right_truth)).to_dict()
     assert metrics["truth"]["nees"]["relative_position"] is None
     assert metrics["truth"]["nees"]["left_position"] > 0
 
 
-def test_feet_of_different_stamps_are_refused(pairs):
-    feet, _, events = live(pairs, TrackerConfig.from_mapping({"method": "zupt"}))
+def test_feet_of_different_stamps_are_refused(heard):
+    feet, _, events = heard("zupt")
     late = replace(feet[1], stamp_ns=feet[1].stamp_ns + 1)
     with pytest.raises(EvaluationError, match="different stamps"):
         published_trajectory(feet[0], late, events, method="zupt")

@@ -78,13 +78,13 @@ def test_a_sensor_in_g_is_recognised_in_the_diagnostics(bench, clock):
     assert said()[0].status[0].name == "left/imu_adapter"
 
 
-def test_one_foot_of_a_bag_is_played_to_the_bit_by_the_namespace(bench, walk_bag):
+def test_one_foot_of_a_bag_is_played_to_the_bit_by_the_namespace(bench, short_bag):
     probe, got = bench.plain(), []
     probe.create_subscription(Imu, "/right/imu/data_raw", got.append, qos.sensor(10_000))
-    values = {"source": f"file://{walk_bag}", "play.rate": 1000.0}
+    values = {"source": f"file://{short_bag}", "play.rate": 1000.0}
     node = bench.add(ImuAdapterNode, values, namespace="right")
     bench.until(node.done.done, "the end of the file")
-    series = read_bag(walk_bag).right
+    series = read_bag(short_bag).right
     bench.until(lambda: len(got) == len(series), "all samples")
     np.testing.assert_array_equal([to_ns(m.header.stamp) for m in got], series.stamp_ns)
     np.testing.assert_array_equal([imu_values(m)[3:] for m in got], series.angular_rate)

@@ -12,16 +12,16 @@ FEET = ("left", "right")
 
 
 @pytest.mark.parametrize("topic", ["data_raw", "data_sync"])
-def test_a_bag_becomes_topics_to_the_bit_and_nothing_is_lost_at_the_start(bench, walk_bag, topic):
+def test_a_bag_becomes_topics_to_the_bit_and_nothing_is_lost_at_the_start(bench, short_bag, topic):
     probe, got, clock = bench.plain(), {foot: [] for foot in FEET}, []
     for foot in FEET:
         name = f"{foot}/imu/{topic}"
         probe.create_subscription(Imu, name, got[foot].append, qos.sensor(20_000))
     probe.create_subscription(Clock, "/clock", clock.append, qos.sensor(20_000))
-    values = {"bag": str(walk_bag), "play.rate": 1000.0, "topic": topic}
+    values = {"bag": str(short_bag), "play.rate": 1000.0, "topic": topic}
     replay = bench.add(ReplayNode, values)
     bench.until(replay.done.done, "the end of the bag")
-    recording = read_bag(walk_bag)
+    recording = read_bag(short_bag)
     for foot in FEET:
         series = recording.imu(foot)
         bench.until(lambda f=foot, whole=series: len(got[f]) == len(whole), "all samples")

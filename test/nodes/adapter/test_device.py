@@ -150,11 +150,11 @@ def listen_late(bench):
 
 
 @pytest.mark.parametrize("kind", ["captured bytes", "a bag"])
-def test_a_file_waits_for_a_subscriber_and_loses_no_sample_to_it(bench, tmp_path, walk_bag, kind):
+def test_a_file_waits_for_a_subscriber_and_loses_no_sample_to_it(bench, tmp_path, short_bag, kind):
     path = tmp_path / "capture.bin"
     path.write_bytes(frames.stream("mcu", 300))
     source = (
-        f"file://{path}?format=mcu&speed=0" if kind == "captured bytes" else f"file://{walk_bag}"
+        f"file://{path}?format=mcu&speed=0" if kind == "captured bytes" else f"file://{short_bag}"
     )
     values = {"play.wait": 3600.0, "play.rate": 100.0, "reports.period": 0.1, "input.silence": 0.1}
     node = adapter_of(bench, source, **values)

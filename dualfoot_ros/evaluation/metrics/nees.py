@@ -53,8 +53,7 @@ def consistency(
     """Return the NEES of both aligned feet against the truth at the same stamps."""
     rows = [_foot(foot, true, at) for foot, true, at in zip(feet, truth, middles, strict=True)]
     (left_p, left_v, left_a), (right_p, right_v, right_a) = rows
-    at = np.concatenate(middles)
-    estimated, true = (left.position[at] - right.position[at] for left, right in (feet, truth))
+    apart = feet[0].position - feet[1].position - (truth[0].position - truth[1].position)
     return Consistency(
         left_position=left_p,
         right_position=right_p,
@@ -62,7 +61,7 @@ def consistency(
         right_velocity=right_v,
         left_attitude=left_a,
         right_attitude=right_a,
-        relative_position=_mean(estimated - true, relative_covariance[at]),
+        relative_position=_mean(apart, relative_covariance, np.concatenate(middles)),
     )
 
 
@@ -72,12 +71,13 @@ def _foot(
     """Return the mean NEES of position, of velocity where it is known, and of attitude."""
     velocity = None
     if true.velocity is not None:
-        velocity = _mean(foot.velocity[at] - true.velocity[at], foot.velocity_covariance[at])
+        velocity = _mean(foot.velocity - true.velocity, foot.velocity_covariance, at)
     attitude = float("nan")
     if len(at):
         turned = attitude_error(foot.quaternion[at], true.quaternion[at])
-        attitude = _mean(turned, foot.attitude_covariance[at])
-    position = _mean(foot.position[at] - true.position[at], foot.position_covariance[at])
+        own = Covariances.of(foot.attitude_covariance[at])
+        attitude = _mean(turned, own, np.arange(len(at)))
+    position = _mean(foot.position - true.position, foot.position_covariance, at)
     return position, velocity, attitude
 
 
@@ -86,8 +86,9 @@ def attitude_error(estimate: FloatArray, truth: FloatArray) -> FloatArray:
     return turns_between(truth, estimate)
 
 
-def _mean(error: FloatArray, covariance: FloatArray) -> float:
-    """Return the mean NEES of errors (K, 3); nan without any, or without a covariance."""
-    if len(error) == 0 or not np.isfinite(covariance).all():
+def _mean(error: FloatArray, covariance: Covariances, at: IntArray) -> float:
+    """Return the mean NEES at the epochs ``at``; nan without epochs or without a covariance."""
+    there = covariance[at]
+    if len(at) == 0 or not np.isfinite(there).all():
         return float("nan")
-    return float(np.mean(nees(error, covariance)))
+    return float(np.mean(nees(error[at], there)))

@@ -31,7 +31,10 @@ $(VENV)/.kernel: $(VENV)/.installed $(wildcard dualfoot_ros/core/kernel/*.py dua
 demo: $(VENV)/.kernel ## replay bags/demo through the real nodes and compare with the truth
 	@$(BIN)/python -m dualfoot_ros.nodes.demo $(BAG) -o $(OUTPUT)
 
-test: lint types docs dist pytest ## run ruff, mypy, every test; build docs/, wheel and sdist
+# The checks two at a time, and then the tests, which need all of the machine.
+test: $(VENV)/.kernel ## run ruff, mypy, every test; build docs/, wheel and sdist
+	@$(MAKE) --no-print-directory -j2 dist types lint docs
+	@$(MAKE) --no-print-directory pytest
 
 pytest: $(VENV)/.kernel ## run the tests only
 	@OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n $(WORKERS) --dist loadfile

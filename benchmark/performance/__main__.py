@@ -30,6 +30,7 @@ EXAMPLES = """examples:
   python -m benchmark.performance --yardstick ../yardstick
   python -m benchmark.performance --yardstick ../yardstick --only epochs start
   python -m benchmark.performance --only hour --keep /tmp/hour      the bag is made once
+  python -m benchmark.performance --only outputs --walked 30
 """
 
 
@@ -46,6 +47,13 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--keep", type=Path, metavar="DIR", help="keep the bag of an hour here")
     parser.add_argument("--repetitions", type=int, default=5, metavar="N", help="default: 5")
     parser.add_argument("--epochs", type=int, default=60_000, metavar="N", help="of the C walk")
+    parser.add_argument(
+        "--walked",
+        type=float,
+        default=0.0,
+        metavar="MIN",
+        help="in real time before the outputs are measured",
+    )
     parser.add_argument("--json", action="store_true", help="one JSON object, nothing else")
     return parser.parse_args(arguments)
 
@@ -68,7 +76,7 @@ def figures(options: argparse.Namespace, console: Console) -> list[Figure]:
 
 def _parts(options: argparse.Namespace, c: CEpoch | None) -> dict[str, Callable[[], list[Figure]]]:
     parts: dict[str, Callable[[], list[Figure]]] = {
-        "outputs": output_figures,
+        "outputs": lambda: output_figures(options.walked),
         "hour": lambda: _hour(options.keep, c),
         "start": lambda: start_figures(options.repetitions),
         "growth": growth_figures,

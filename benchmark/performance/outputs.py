@@ -57,8 +57,11 @@ class Side:
         self.process.wait()
 
 
-def output_figures(seconds: float = 30.0) -> list[Figure]:
-    """Return CPU time, latency and memory of ``fusion`` beside those of the pass-through."""
+def output_figures(walked_min: float = 0.0, seconds: float = 30.0) -> list[Figure]:
+    """Return CPU time, latency and memory of ``fusion`` beside those of the pass-through.
+
+    They are measured for some ``seconds``, when ``walked_min`` minutes have been walked.
+    """
     environment = {
         **os.environ,
         "ROS_DOMAIN_ID": str(random.randint(100, 200)),
@@ -68,7 +71,7 @@ def output_figures(seconds: float = 30.0) -> list[Figure]:
     os.environ.update(environment)
     sides = {name: Side(name, environment) for name in SIDES}
     try:
-        used = _feed(sides, seconds)
+        used = _feed(sides, WARM_S + 60.0 * walked_min, seconds)
     finally:
         for side in sides.values():
             side.end()
@@ -94,7 +97,7 @@ def _figures(sides: dict[str, Side], used: dict[str, tuple[float, float]]) -> li
     ]  # fmt: skip
 
 
-def _feed(sides: dict[str, Side], seconds: float) -> dict[str, tuple[float, float]]:
+def _feed(sides: dict[str, Side], warm_s: float, seconds: float) -> dict[str, tuple[float, float]]:
     """Publish a walk in real time; return CPU time and memory of each side after the warm-up."""
     import rclpy
     from nav_msgs.msg import Odometry
@@ -119,7 +122,7 @@ def _feed(sides: dict[str, Side], seconds: float) -> dict[str, tuple[float, floa
         executor.add_node(node)
         while min(node.count_publishers(f"/{name}/odometry") for name in sides) < 1:
             executor.spin_once(timeout_sec=0.1)
-        return _walk(sides, seconds, publishers, executor, sent)
+        return _walk(sides, (warm_s, seconds), publishers, executor, sent)
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
@@ -136,17 +139,20 @@ def _listener(side: Side, sent: dict[int, float]) -> Any:
 
 def _walk(
     sides: dict[str, Side],
-    seconds: float,
+    parts_s: tuple[float, float],
     publishers: list[Any],
     executor: Any,
     sent: dict[int, float],
 ) -> dict[str, tuple[float, float]]:
-    """Publish pairs in real time; ``sent`` gets the moment (s) of each by its stamp (ns)."""
+    """Publish pairs in real time; ``sent`` gets the moment (s) of each by its stamp (ns).
+
+    ``parts_s`` are the lengths of the warm-up and of what is measured.
+    """
     from dualfoot_ros.nodes.ros.messages import new_imu, set_imu_values, set_time
 
-    walk = make_walk(RATE_HZ, laps=round((WARM_S + seconds) / LAP_S) + 1)
+    walk = make_walk(RATE_HZ, laps=round(sum(parts_s) / LAP_S) + 1)
     messages = [new_imu("imu"), new_imu("imu")]
-    total, warm = round((WARM_S + seconds) * RATE_HZ), round(WARM_S * RATE_HZ)
+    total, warm = round(sum(parts_s) * RATE_HZ), round(parts_s[0] * RATE_HZ)
     start, start_ns, before = time.monotonic(), time.time_ns(), dict[str, float]()
     gc.disable()
     for k, pair in enumerate(walk.pairs[:total]):

@@ -20,6 +20,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.subscription import Subscription
 from rclpy.timer import Timer
+from rclpy.utilities import get_default_context
 
 LOOK_S = 1.0  # between looks at the events of publishers and subscriptions, as a QoS that misfits
 KINDS = ("subscription", "guard_condition", "timer", "client", "service")
@@ -80,6 +81,16 @@ class Executor(SingleThreadedExecutor):
     _sigint_gc = None
 
     def __init__(self, *, context: Context | None = None) -> None:
+        """Take the default context where none is given.
+
+        Raises
+        ------
+        ExternalShutdownException
+            When the context has ended.
+        """
+        # rclpy would leave a guard half made, whose destructor prints a traceback.
+        if not (context or get_default_context()).ok():
+            raise ExternalShutdownException
         super().__init__(context=context)
         self._kept: KeptWaitSet | None = None
         self._look_s = 0.0

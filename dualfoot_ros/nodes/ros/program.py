@@ -75,7 +75,7 @@ def run_nodes(
     try:
         program.check_arguments(argv)
         with started(argv):
-            _spin(build())
+            _spin(build)
     except STOPPED:
         return 0
     except DualFootError as error:
@@ -135,17 +135,20 @@ def in_one_line(error: Exception) -> str:
     return SOURCE_LINE.sub("", " ".join(str(error).split()))
 
 
-def _spin(graph: Graph) -> None:
+def _spin(build: Callable[[], Graph]) -> None:
+    """Run the nodes that ``build`` makes; a signal finds an executor that is whole."""
     sys.setswitchinterval(SWITCH_S)
-    executor = Executor()
+    executor, nodes = Executor(), tuple[Node, ...]()
     try:
-        for node in graph.nodes:
+        graph = build()
+        nodes = tuple(graph.nodes)
+        for node in nodes:
             executor.add_node(node)
         _spin_until(graph.done or Future(), executor)
     finally:
         _ignore_signals()
         executor.shutdown()
-        destroy(graph.nodes)
+        destroy(nodes)
 
 
 def _spin_until(done: Future, executor: Executor) -> None:

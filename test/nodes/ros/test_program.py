@@ -60,7 +60,7 @@ def test_other_threads_hold_up_a_callback_for_half_a_millisecond_at_most(context
     node, done, usual = Node("probe", context=context), Future(), sys.getswitchinterval()
     node.create_timer(0.01, lambda: done.set_result(sys.getswitchinterval()))
     try:
-        program._spin(program.Graph([node], done))
+        program._spin(lambda: program.Graph([node], done))
         assert done.result() == pytest.approx(0.5e-3)
     finally:
         sys.setswitchinterval(usual)

@@ -1,9 +1,9 @@
 """What faults cost: lost samples, holes, one foot alone, clocks that are set, floors that move.
 
-    python -m benchmark.faults [--seeds 8] [--only rides]
+    python -m benchmark.faults [--seeds 8] [--only rides] [--rate 60]
 
-Each fault is put into simulated walks at 100 Hz, or into streams that go through the streaming
-aligner in the order of their arrival.
+Each fault is put into simulated walks (100 Hz, or ``--rate``), or into streams that go through the
+streaming aligner in the order of their arrival.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from dualfoot_ros.core import DualFootError, FloatArray, ImuSeries, Trajectory
 from dualfoot_ros.core.results.events import FEET
 from dualfoot_ros.evaluation import RunOptions, run, track
 from dualfoot_ros.recording import Recording
-from dualfoot_ros.simulation import Simulation, simulate
+from dualfoot_ros.simulation import Simulation, WalkConfig, simulate
 from dualfoot_ros.timing import Aligner, align_with_report
 
 STEP_NS = 10_000_000
@@ -157,8 +157,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seeds", type=int, default=8)
     parser.add_argument("--only", choices=("clocks", "silence", "tracks", "rides"))
+    parser.add_argument("--rate", type=float, default=100.0, metavar="HZ", help="of the tracks")
     arguments = parser.parse_args()
-    walks = [simulate(seed=seed) for seed in range(arguments.seeds)]
+    config = WalkConfig(rate=arguments.rate)
+    walks = [simulate(config, seed=seed) for seed in range(arguments.seeds)]
     table = Table(title=f"{len(walks)} walks")
     for column in ("fault", "measured"):
         table.add_column(column)

@@ -6,10 +6,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import Covariances, FloatArray, FootTrajectory, IntArray, Trajectory
+from ..core import (
+    Covariances,
+    FloatArray,
+    FootTrajectory,
+    IntArray,
+    Trajectory,
+    quaternion_matrices,
+)
 from .frames.association import Footfalls, seconds
 from .gait import forward_axis
-from .gait.foot_contacts import stood_attitudes
 from .person_shares import PersonCovariances, person_position, person_shares
 
 CHI2_95_PLANE = 5.991
@@ -88,7 +94,7 @@ def _heading(foot: FootTrajectory, falls: Footfalls) -> FloatArray:
     axis = forward_axis(foot, falls)
     if axis is None:
         return np.zeros(len(foot))
-    ahead = stood_attitudes(foot, falls) @ axis
+    ahead = quaternion_matrices(foot.quaternion[falls.middle]) @ axis
     stood = np.full(len(foot), np.nan)
     stood[falls.middle] = np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0]))
     return _held(foot, falls, stood)

@@ -199,8 +199,8 @@ def advance(w, n, ring_stamps, stamps, dts, samples, start, stop, out):
 def step(w, n, ring_stamps, stamp, dt, sample, told):
     """Run the epoch of one ``sample`` (12,), and write all that is told of it to ``told``.
 
-    Returns whether that is the end of it: all of
-    ``told`` (1, TOLD) is numbers, and no notice is set.
+    Returns whether that is the end of it: all of ``told`` (1, TOLD) is numbers, and no notice is
+    set.
     """
     o = begin(w, n, ring_stamps, stamp, dt)
     for j in range(12):

@@ -219,9 +219,7 @@ O_PRESENT = 54  # 1 where the foot had a sample
 O_RELATIVE = 2 * O_FOOT  # covariance of left minus right position, 3x3
 OUT = O_RELATIVE + 9
 TOLD_BLOCK = 9 * ROW  # of a covariance block: position, velocity and attitude
-TOLD = (
-    OUT + 3 * TOLD_BLOCK
-)  # the row and these, left, right, cross: what is told of one epoch live
+TOLD = OUT + 3 * TOLD_BLOCK  # what is told of a live epoch: the row, then left, right, cross
 
 
 def position_row(foot: int, axis: int) -> int:

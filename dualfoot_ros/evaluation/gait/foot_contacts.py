@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import FloatArray, FootTrajectory
+from ...core import FloatArray, FootTrajectory, quaternion_matrices
 from ..frames.association import Footfalls, seconds
 
 LEAST_STRIDE_M = 0.3
@@ -104,7 +104,7 @@ def forward_axis(track: FootTrajectory, falls: Footfalls) -> FloatArray | None:
     lengths = np.linalg.norm(ways, axis=1)
     long = np.flatnonzero(lengths >= LEAST_STRIDE_M)
     ahead = np.column_stack([ways[long] / lengths[long, np.newaxis], np.zeros(len(long))])
-    to_body = np.swapaxes(stood_attitudes(track, falls), 1, 2)
+    to_body = np.swapaxes(quaternion_matrices(track.quaternion[falls.middle]), 1, 2)
     axes = (to_body[long] @ ahead[:, :, np.newaxis])[:, :, 0]
     after = (to_body[long + 1] @ ahead[:, :, np.newaxis])[:, :, 0]
     x, y, z = (axes * after).T
@@ -113,17 +113,6 @@ def forward_axis(track: FootTrajectory, falls: Footfalls) -> FloatArray | None:
         return None
     middle: FloatArray = np.median(axes, axis=0)
     return middle / np.linalg.norm(middle)
-
-
-def stood_attitudes(track: FootTrajectory, falls: Footfalls) -> FloatArray:
-    """Return R_nb (M, 3, 3) in the middle of every stance."""
-    x, y, z, w = track.quaternion[falls.middle].T
-    rows = (
-        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-    )
-    return np.stack([np.stack(row, axis=1) for row in rows], axis=1)
 
 
 def inclination(track: FootTrajectory, axis: FloatArray) -> FloatArray:

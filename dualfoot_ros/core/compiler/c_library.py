@@ -69,6 +69,7 @@ TAKEN = {
     Kind.INTEGERS: "data",
     Kind.REALS: "data",
     Kind.ROWS: "rows",
+    Kind.BYTES: "data",
 }
 MADE = {Kind.INTEGER: "PyLong_FromLongLong", Kind.REAL: "PyFloat_FromDouble"}
 NONE = 'return Py_BuildValue("");'

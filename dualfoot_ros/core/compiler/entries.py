@@ -14,11 +14,12 @@ class Kind(StrEnum):
     INTEGERS = "int64_t *"
     REALS = "double *"
     ROWS = "Rows"  # an array of two dimensions
+    BYTES = "uint8_t *"
 
     @property
     def is_array(self) -> bool:
         """Whether it stands for many numbers."""
-        return self in {Kind.INTEGERS, Kind.REALS, Kind.ROWS}
+        return self in {Kind.INTEGERS, Kind.REALS, Kind.ROWS, Kind.BYTES}
 
 
 class Entry(NamedTuple):

@@ -81,5 +81,5 @@ def save(figure: Figure, path: Path) -> Path:
     engine = figure.get_layout_engine()
     if engine is not None and any(axis.get_aspect() != "auto" for axis in figure.axes):
         figure.draw_without_rendering()
-    FigureCanvasAgg(figure).print_png(path)
+    FigureCanvasAgg(figure).print_png(path)  # type: ignore[no-untyped-call]
     return path

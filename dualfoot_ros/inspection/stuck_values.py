@@ -70,21 +70,21 @@ def find_stuck(series: ImuSeries) -> tuple[Stuck, ...]:
     """Return what is stuck in the usable samples of one foot: the sensor, or single axes."""
     if len(series) < 2 * LEAST_SAMPLES:
         return ()
-    values = np.hstack([series.specific_force, series.angular_rate])
     seconds = (series.stamp_ns - series.stamp_ns[0]) * 1e-9
-    same = [np.diff(column) == 0.0 for column in values.T]
+    triads = series.specific_force, series.angular_rate
+    same = [column for v in triads for column in (v[1:] == v[:-1]).T]
     sensor = _runs(np.logical_and.reduce(same))
-    whole = [run for run in sensor if _is_stuck(values, seconds, run)]
+    whole = [run for run in sensor if _is_stuck(series, seconds, run)]
     if whole:
         return (_summarise(Channel.SENSOR, whole, seconds),)
-    return tuple(_stuck_axes(values, seconds, same))
+    return tuple(_stuck_axes(series, seconds, same))
 
 
 def _stuck_axes(
-    values: FloatArray, seconds: FloatArray, same: Sequence[BoolArray]
+    series: ImuSeries, seconds: FloatArray, same: Sequence[BoolArray]
 ) -> Iterator[Stuck]:
     for axis, channel in enumerate(AXES):
-        runs = [run for run in _runs(same[axis]) if _others_move(values, seconds, axis, run)]
+        runs = [run for run in _runs(same[axis]) if _others_move(series, seconds, axis, run)]
         if runs:
             yield _summarise(channel, runs, seconds)
 
@@ -129,26 +129,29 @@ def _mode(column: FloatArray) -> tuple[float, float, bool]:
 
 def _runs(same: BoolArray) -> list[Run]:
     """Return the long stretches of samples of which each is the ``same`` (N - 1,) as the next."""
+    if np.count_nonzero(same) < LEAST_SAMPLES - 1:
+        return []
     edges = np.flatnonzero(np.diff(np.concatenate(([0], same.astype(np.int8), [0]))))
     runs = edges.reshape(-1, 2)
     long = runs[runs[:, 1] - runs[:, 0] + 1 >= LEAST_SAMPLES]
     return [(first, last) for first, last in long.tolist()]
 
 
-def _is_stuck(values: FloatArray, seconds: FloatArray, run: Run) -> bool:
+def _is_stuck(series: ImuSeries, seconds: FloatArray, run: Run) -> bool:
     first, last = run
-    off = abs(float(np.linalg.norm(values[first, :3])) - STANDARD_GRAVITY)
-    rest = off < AT_REST[0] and float(np.abs(values[first, 3:]).max()) < AT_REST[1]
+    off = abs(float(np.linalg.norm(series.specific_force[first])) - STANDARD_GRAVITY)
+    rest = off < AT_REST[0] and float(np.abs(series.angular_rate[first]).max()) < AT_REST[1]
     return bool(seconds[last] - seconds[first] >= (LEAST_AT_REST_S if rest else LEAST_S))
 
 
-def _others_move(values: FloatArray, seconds: FloatArray, axis: int, run: Run) -> bool:
+def _others_move(series: ImuSeries, seconds: FloatArray, axis: int, run: Run) -> bool:
     """Return whether another axis of the triad moves while ``axis`` does not."""
     first, last = run
     if seconds[last] - seconds[first] < LEAST_AXIS_S:
         return False
     triad = axis // 3
-    span = np.ptp(values[first : last + 1, 3 * triad : 3 * triad + 3], axis=0)
+    values = series.angular_rate if triad else series.specific_force
+    span = np.ptp(values[first : last + 1], axis=0)
     return bool(span.max() > MOVES[triad])
 
 

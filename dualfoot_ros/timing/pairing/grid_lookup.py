@@ -80,12 +80,12 @@ class GridLookup:
     def take(self, series: ImuSeries, grid: IntArray, kept: BoolArray) -> ImuSeries:
         """Return the series at the ``kept`` stamps of the grid, NaN where there is no value."""
         field = series.magnetic_field
-        force, rate = (np.full((int(kept.sum()), 3), np.nan) for _ in range(2))
-        rows, good = np.flatnonzero(self.found[kept]), np.flatnonzero(kept & self.found)
-        for start in range(0, len(good), TOGETHER):
-            part = slice(start, start + TOGETHER)
-            values = self._between(series, good[part])
-            force[rows[part]], rate[rows[part]] = values[:, :3], values[:, 3:]
+        at = np.flatnonzero(kept)
+        if self.exact[at].all():  # the samples themselves, as of a foot whose stamps the grid has
+            rows = self.before[at]
+            force, rate = series.specific_force[rows], series.angular_rate[rows]
+        else:
+            force, rate = self._made(series, kept)
         return ImuSeries(
             grid[kept],
             force,
@@ -93,6 +93,16 @@ class GridLookup:
             None if field is None else self._values(field, kept),
             series.increments,
         )
+
+    def _made(self, series: ImuSeries, kept: BoolArray) -> tuple[FloatArray, FloatArray]:
+        """Return force and rate (K, 3) at the ``kept`` stamps, NaN where there is no value."""
+        force, rate = (np.full((int(kept.sum()), 3), np.nan) for _ in range(2))
+        rows, good = np.flatnonzero(self.found[kept]), np.flatnonzero(kept & self.found)
+        for start in range(0, len(good), TOGETHER):
+            part = slice(start, start + TOGETHER)
+            values = self._between(series, good[part])
+            force[rows[part]], rate[rows[part]] = values[:, :3], values[:, 3:]
+        return force, rate
 
     def _between(self, series: ImuSeries, at: IntArray) -> FloatArray:
         """Return force and rate (K, 6) at places (K,) of the grid at which they are known."""

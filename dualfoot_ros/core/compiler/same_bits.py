@@ -40,12 +40,7 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     functions["restore"](w, n, 3)
     functions["rerun"](w, n, 3, EPOCHS - 1)
     functions["emit"](w, n, out, 0)
-    told = np.zeros((1, lay.TOLD))
-    told[0, : lay.OUT] = out[0]
-    numbers = functions["tell"](w, told)
-    yield np.append(told, numbers).tobytes()
-    done = functions["step"](w, n, ring, 7, 0.01, samples[0], told)
-    yield np.append(told, done).tobytes() + ring.tobytes()
+    yield from _told(functions, w, n, ring, samples)
     yield w.tobytes() + n.tobytes() + out.tobytes()
     for kind in (None, lay.KNOW_ALL, lay.KNOW_COMMON, lay.KEEP_PLACE, lay.KNOW_NOTHING):
         yield _updated(functions, w, kind)
@@ -60,6 +55,21 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     x[:12] = [0.9, 0.5, -0.1, 0.4, 0.1, 0.02, 0.1, 0.3, 0.05, 0.02, 0.05, 0.2]
     functions["closest"](x, 0.7, 0.05)
     yield x.tobytes()
+
+
+def _told(
+    functions: Calls, w: FloatArray, n: IntArray, ring: IntArray, samples: FloatArray
+) -> Iterator[bytes]:
+    """Yield what is told of the newest epoch, and of two more."""
+    told = np.zeros((1, lay.TOLD))
+    functions["emit"](w, n, told, 0)
+    numbers = functions["tell"](w, told)
+    yield np.append(told, numbers).tobytes()
+    done = functions["step"](w, n, ring, 7, 0.01, samples[0], told)
+    yield np.append(told, done).tobytes() + ring.tobytes()
+    n[lay.N_LONGEST] = 10**8
+    done = functions["take_pair"](w, n, ring, 10**7, samples[1], told)
+    yield np.append(told, done).tobytes() + ring.tobytes()
 
 
 def _updated(functions: Calls, w: FloatArray, kind: int | None) -> bytes:

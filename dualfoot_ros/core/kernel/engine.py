@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+import numpy as np
+
 from . import (
     closest,
     considered_states,
@@ -27,6 +29,7 @@ from . import (
     turn,
     zero_velocity,
 )
+from . import layout as lay
 from .at_stances import (
     distance_constraint,
     landing,
@@ -36,6 +39,7 @@ from .at_stances import (
     spacing_learner,
 )
 
+STAMPS = np.iinfo(np.int64)  # that the library takes
 MODULES = (
     closest,
     strapdown,
@@ -60,6 +64,7 @@ MODULES = (
 ENTRIES = (
     "advance",
     "step",
+    "take_pair",
     "rerun",
     "restore",
     "set_flags",
@@ -84,6 +89,7 @@ class Engine:
     name: str
     advance: Callable[..., Any]
     step: Callable[..., Any]
+    take_pair: Callable[..., Any]
     rerun: Callable[..., Any]
     restore: Callable[..., Any]
     set_flags: Callable[..., Any]
@@ -114,4 +120,27 @@ def kernel_functions() -> dict[str, types.FunctionType]:
 def interpreted() -> Engine:
     """Return the kernel as plain Python functions."""
     functions = kernel_functions()
-    return Engine("interpreted", **{name: functions[name] for name in ENTRIES})
+    entries: dict[str, Callable[..., Any]] = {name: functions[name] for name in ENTRIES}
+    return Engine("interpreted", **{**entries, "take_pair": looked_at(entries["take_pair"])})
+
+
+def looked_at(take_pair: Callable[..., int]) -> Callable[..., int]:
+    """Return ``take_pair`` so that it looks first at what is from outside, as the library does."""
+
+    def take_if_plain(w: Any, n: Any, ring_stamps: Any, stamp: int, sample: Any, told: Any) -> int:
+        if not STAMPS.min <= stamp <= STAMPS.max or not is_plain(sample):
+            return lay.NOT_TAKEN
+        return take_pair(w, n, ring_stamps, stamp, sample, told)
+
+    return take_if_plain
+
+
+def is_plain(sample: Any) -> bool:
+    """Return whether a sample is an array of 12 float64 that lie one after the other."""
+    return (
+        type(sample) is np.ndarray
+        and sample.dtype == np.float64
+        and sample.shape == (12,)
+        and sample.flags.c_contiguous
+        and sample.flags.aligned
+    )

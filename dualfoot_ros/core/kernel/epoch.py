@@ -5,6 +5,7 @@ stops after every epoch that set a notice, because what a notice asks for (a con
 is decided by the tracker and not here.
 """
 
+from ..samples.pair_gate import LIMIT
 from .covariance import correlated, propagate_foot
 from .detector import detect
 from .floor import carry, floor_moves, watch_floor
@@ -14,9 +15,12 @@ from .layout import (
     FOOT,
     N_EPOCH,
     N_FLAGS,
+    N_LONGEST,
     N_NOTICE,
     N_OLDEST,
+    N_PAIRS,
     N_RING,
+    NOT_TAKEN,
     NOTICE_FLOOR,
     NOTICE_SHIFT,
     NOTICE_STOOD,
@@ -28,6 +32,8 @@ from .layout import (
     S_SF,
     SAMPLE,
     STATE,
+    TAKEN,
+    TO_ATTEND,
     TRACKED,
     WALKED,
     Z_LEFT,
@@ -208,3 +214,24 @@ def step(w, n, ring_stamps, stamp, dt, sample, told):
     run_newest(w, n, o, coupled_feet(w))
     emit(w, n, told, 0)
     return tell(w, told) and n[N_NOTICE] == 0
+
+
+def take_pair(w, n, ring_stamps, stamp, sample, told):
+    """Run the epoch of a pair that just follows the one before, as `step` does.
+
+    That is one in order, without a hole before it, with every value in range.  Returns TAKEN when
+    that is the end of it, TO_ATTEND when `step` says that it is not, and NOT_TAKEN for any other
+    pair, with which nothing is done.
+    """
+    last = ring_stamps[n[N_EPOCH] % n[N_RING]]
+    if n[N_EPOCH] < 0 or stamp <= last or stamp - n[N_LONGEST] > last:
+        return NOT_TAKEN
+    good = 0
+    for j in range(12):
+        if abs(sample[j]) < LIMIT:
+            good += 1
+    if good != 12:
+        return NOT_TAKEN
+    n[N_PAIRS] += 1
+    dt = (stamp - last) * 1e-9
+    return TAKEN if step(w, n, ring_stamps, stamp, dt, sample, told) else TO_ATTEND

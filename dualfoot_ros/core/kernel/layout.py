@@ -181,6 +181,8 @@ N_DECIMATE = 9  # samples to one value of the statistic's history
 N_WALKING = 10  # samples for which a foot counts as walking after a swing
 N_SETTLED = 11  # samples without a turn after which a foot has come to rest on its floor
 N_STANDS = 12  # samples after which a stance is one of a stop
+N_LONGEST = 13  # ns between two samples above which some are missing between them
+N_PAIRS = 14  # pairs that `take_pair` has taken since their number was asked for
 N_FOOT = 16  # then per foot:
 N_STRIDE = 8
 N_PHASE = 0  # one of the phases below
@@ -203,6 +205,8 @@ NOTICE_GONE = 2048  # the left foot has no sample any more; twice that for the r
 NOTICE_BACK = 8192  # the left foot has samples again; twice that for the right
 NOTICE_FLOOR = 32768  # both feet gain velocity alike while they stand, or the floor moves
 STOOD_S = 0.75  # length of that window
+
+NOT_TAKEN, TAKEN, TO_ATTEND = 0, 1, 2  # what `take_pair` returns
 
 # --- output row ----------------------------------------------------------------------------------
 O_FOOT = 55  # stride from left to right

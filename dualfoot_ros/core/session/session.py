@@ -12,6 +12,7 @@ from ..config import TrackerConfig
 from ..constraints import Method
 from ..kernel import Engine
 from ..kernel import layout as lay
+from ..results.context import Context
 from ..results.events import FEET, Event, EventKind
 from ..results.facing import Facing
 from ..results.payloads import Levelled
@@ -49,9 +50,10 @@ class Session:
         self._walk = walk = WalkState(config, start.rate_hz, aids, increments)
         self._notices = Notices(walk, stood_first=not start.waiting)
         self.holes = Holes(walk, self.step)
-        self._sample = np.empty(12)
         self.space, self.rate_hz = walk.space, start.rate_hz
-        walk.use(engine)
+        self._w, self._n, self._stamps = walk.space.w, walk.space.n, walk.space.stamps
+        self.context = Context(walk.phase)
+        self.use(engine)
         self._level()
         for foot, still in enumerate(start.feet):
             if still.absent:
@@ -79,7 +81,13 @@ class Session:
 
     def use(self, engine: Engine) -> None:
         """Go on with another form of the kernel."""
+        self._engine = engine
         self._walk.use(engine)
+
+    def pairs_taken(self) -> tuple[int, int]:
+        """Return how many pairs `take` has taken since this was asked, and the newest stamp."""
+        taken, self._n[lay.N_PAIRS] = self._n.item(lay.N_PAIRS), 0
+        return taken, self._stamps.item(self._n.item(lay.N_EPOCH) % len(self._stamps))
 
     def _level(self) -> None:
         walk = self._walk
@@ -112,18 +120,40 @@ class Session:
 
         None when it is no numbers: nothing of that may leave.
         """
-        walk, space = self._walk, self.space
-        if walk.phase == "standing":
+        if self._walk.phase == "standing":
             self._refine(stamp, values)
-        w, n, sample, told = space.w, space.n, self._sample, np.empty(TOLD)
+        sample, told = np.empty(12), np.empty(TOLD)
         sample[...] = values
-        if not walk.engine.step(w, n, space.stamps, stamp, dt_s, sample, told):
-            if n[lay.N_NOTICE]:
-                before = (*before, *self._notices.attend())
-                walk.engine.emit(w, n, told, 0)
-            if not walk.engine.tell(w, told):
-                return None
-        return Update(stamp, walk.phase, None, told, before, walk.facing)
+        if self._engine.step(self._w, self._n, self._stamps, stamp, dt_s, sample, told):
+            return self._update(stamp, told, before)
+        return self.attend(stamp, told, before)
+
+    def take(self, stamp: int, values: FloatArray, told: FloatArray) -> int:
+        """Let the kernel take a pair of a walk by itself; return what `take_pair` returns.
+
+        An update of it has ``context`` and ``told`` (1, TOLD).
+        """
+        done: int = self._engine.take_pair(self._w, self._n, self._stamps, stamp, values, told)
+        return done
+
+    def attend(
+        self, stamp: int, told: FloatArray, before: tuple[Event, ...] = ()
+    ) -> Update | None:
+        """Attend to what the newest epoch has reported; return as `step` does."""
+        w, n, engine = self._w, self._n, self._engine
+        if n[lay.N_NOTICE]:
+            before = (*before, *self._notices.attend())
+            engine.emit(w, n, told, 0)
+        if not engine.tell(w, told):
+            return None
+        return self._update(stamp, told, before)
+
+    def _update(self, stamp: int, told: FloatArray, events: tuple[Event, ...]) -> Update:
+        """Return the update of an epoch after which anything may be otherwise than before."""
+        phase, facing = self._walk.phase, self._walk.facing
+        if self.context.phase != phase or self.context.facing is not facing:
+            self.context = Context(phase, facing)
+        return Update(stamp, Context(phase, facing, events) if events else self.context, told)
 
     def _refine(self, stamp: int, values: FloatArray) -> None:
         """Level anew when the stand has gone on for a window's length more."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 
-import numpy as np
 from numpy import empty
 
 from .aids import AidInputs
@@ -258,14 +257,12 @@ class PairStream:
         pose, self._pose = self._pose, None
         return session.set_pose(stamp, pose)
 
-    def went_on(self, rows: FloatArray, last_ns: int) -> bool:
-        """Take note that ``undisturbed`` has run samples; return whether their rows are numbers.
+    def went_on(self, count: int, last_ns: int, *, numbers: bool) -> None:
+        """Take note that ``undisturbed`` has run pairs up to that of ``last_ns``.
 
-        ``rows`` (N, OUT) are what it gave, ``last_ns`` the stamp of the last sample.
+        When what they gave is no ``numbers``, begin anew.
         """
-        self.counters["pairs"] += len(rows)
+        self.counters["pairs"] += count
         self.gate.went_on(last_ns)
-        finite = bool(np.isfinite(rows).all())
-        if not finite:
+        if not numbers:
             self.reset(last_ns, Reason.NOT_FINITE)
-        return finite

@@ -35,9 +35,12 @@ class Entry(NamedTuple):
 
 _W, _N, _ROWS, _I, _X = Kind.REALS, Kind.INTEGERS, Kind.ROWS, Kind.INTEGER, Kind.REAL
 _S = Kind.SAMPLE
+_SAMPLES = (_ROWS,) * 4  # force and rate, left then right
+_KEPT = (_ROWS, _ROWS, _ROWS, _X, _I, *(_ROWS,) * 7)  # what a trajectory keeps
 
 ENTRY_KINDS = {
-    "advance": Entry((_W, _N, _N, _N, _W, _ROWS, _I, _I, _ROWS), _I),
+    "advance": Entry((_W, _N, _N, _N, *_SAMPLES, _I, _I, *_KEPT), _I),
+    "keep": Entry((_W, _N, _I, *_KEPT)),
     "step": Entry((_W, _N, _N, _I, _X, _W, _ROWS), _I),
     "take_pair": Entry((_W, _N, _N, _I, _S, _ROWS), _I),
     "rerun": Entry((_W, _N, _I, _I)),

@@ -30,15 +30,18 @@ def same_bits(functions: Calls) -> bool:
 def _computed(functions: Calls) -> Iterator[bytes]:
     """Yield what every entry makes of the same numbers."""
     w, n = _numbers()
-    out, samples = np.zeros((EPOCHS, lay.OUT)), _walk()
-    ring, stamps, dts = np.zeros(RING, dtype=np.int64), np.arange(EPOCHS), np.full(EPOCHS, 0.01)
-    at = 0
+    out, samples, ring = np.zeros((EPOCHS, lay.OUT)), _walk(), np.zeros(RING, dtype=np.int64)
+    stamps, parts = 10**7 * np.arange(EPOCHS), [samples[:, k : k + 3].copy() for k in (0, 3, 6, 9)]
+    rows = [np.zeros((EPOCHS, columns)) for columns in (lay.KEPT, lay.KEPT, 2, *(6,) * 7)]
+    kept = *rows[:3], -1.0, 1, *rows[3:]
+    at = 1
     while at < EPOCHS:
-        at = functions["advance"](w, n, ring, stamps, dts, samples, at, EPOCHS, out)
-    yield w.tobytes() + n.tobytes() + out.tobytes() + ring.tobytes()
-    functions["set_flags"](n, 1, 0, EPOCHS - 1, 1)
+        at = functions["advance"](w, n, ring, stamps, *parts, at, EPOCHS, *kept)
+    functions["keep"](w, n, 0, *kept)
+    yield w.tobytes() + n.tobytes() + ring.tobytes() + b"".join(each.tobytes() for each in rows)
+    functions["set_flags"](n, 1, 0, EPOCHS - 2, 1)
     functions["restore"](w, n, 3)
-    functions["rerun"](w, n, 3, EPOCHS - 1)
+    functions["rerun"](w, n, 3, EPOCHS - 2)
     functions["emit"](w, n, out, 0)
     yield from _told(functions, w, n, ring, samples)
     yield w.tobytes() + n.tobytes() + out.tobytes()

@@ -23,7 +23,6 @@ from . import (
     epoch,
     floor,
     measurement_update,
-    output_row,
     stance_correction,
     strapdown,
     turn,
@@ -38,6 +37,7 @@ from .at_stances import (
     spacing_constraint,
     spacing_learner,
 )
+from .outputs import kept_row, output_row
 
 STAMPS = np.iinfo(np.int64)  # that the library takes
 MODULES = (
@@ -52,6 +52,7 @@ MODULES = (
     detector,
     floor,
     output_row,
+    kept_row,
     epoch,
     turn,
     separation,
@@ -63,6 +64,7 @@ MODULES = (
 )
 ENTRIES = (
     "advance",
+    "keep",
     "step",
     "take_pair",
     "rerun",
@@ -88,6 +90,7 @@ class Engine:
 
     name: str
     advance: Callable[..., Any]
+    keep: Callable[..., Any]
     step: Callable[..., Any]
     take_pair: Callable[..., Any]
     rerun: Callable[..., Any]

@@ -39,7 +39,8 @@ from .layout import (
     Z_LEFT,
     ZUPT_INFO,
 )
-from .output_row import (
+from .outputs.kept_row import keep
+from .outputs.output_row import (
     collect_stand,
     emit,
     missing,
@@ -184,19 +185,30 @@ def run_newest(w, n, o, coupled):
         n[N_NOTICE] = n[N_NOTICE] | NOTICE_WATCH
 
 
-def advance(w, n, ring_stamps, stamps, dts, samples, start, stop, out):
-    """Run epochs ``start..stop-1`` of ``samples`` (N, 12) with intervals ``dts`` (N,) s.
+def advance(
+    w, n, ring_stamps, stamps, left_force, left_rate, right_force, right_rate, start, stop,
+    left, right, nis, nothing, covariances,
+    left_pos, left_vel, left_att, right_pos, right_vel, right_att, relative,
+):  # fmt: skip
+    """Run the epochs of samples ``start..stop-1``; sample ``start`` follows the one before it.
 
-    Each writes its row of ``out`` (N, OUT), and keeps its stamp in ``ring_stamps``.  Returns the
-    index after the last epoch that was run: ``stop``, or earlier when one set n[N_NOTICE].
+    ``stamps`` (N,) are in ns, forces and rates (N, 3).  Each epoch writes its row of what a
+    trajectory keeps (`keep`), and keeps its stamp in ``ring_stamps``.  Returns the index after the
+    last epoch that was run: ``stop``, or earlier when one set n[N_NOTICE].
     """
     coupled = coupled_feet(w)
     for k in range(start, stop):
-        o = begin(w, n, ring_stamps, stamps[k], dts[k])
-        for j in range(12):
-            w[o + 1 + j] = samples[k, j]
+        o = begin(w, n, ring_stamps, stamps[k], (stamps[k] - stamps[k - 1]) * 1e-9)
+        for j in range(3):
+            w[o + 1 + j] = left_force[k, j]
+            w[o + 4 + j] = left_rate[k, j]
+            w[o + 7 + j] = right_force[k, j]
+            w[o + 10 + j] = right_rate[k, j]
         run_newest(w, n, o, coupled)
-        emit(w, n, out, k)
+        keep(
+            w, n, k, left, right, nis, nothing, covariances,
+            left_pos, left_vel, left_att, right_pos, right_vel, right_att, relative,
+        )  # fmt: skip
         if n[N_NOTICE] != 0:
             return k + 1
     return stop

@@ -222,6 +222,8 @@ O_ZUPT = 41  # innovation 3, S 9, NIS
 O_PRESENT = 54  # 1 where the foot had a sample
 O_RELATIVE = 2 * O_FOOT  # covariance of left minus right position, 3x3
 OUT = O_RELATIVE + 9
+K_VEL, K_QUAT = O_VEL, O_QUAT  # what a trajectory keeps of it begins with the position
+KEPT = O_QUAT + 4  # of a foot
 TOLD_BLOCK = 9 * ROW  # of a covariance block: position, velocity and attitude
 TOLD = OUT + 3 * TOLD_BLOCK  # what is told of a live epoch: the row, then left, right, cross
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -16,9 +17,11 @@ from ..results.context import Context
 from ..results.events import FEET, Event, EventKind
 from ..results.facing import Facing
 from ..results.payloads import Levelled
+from ..results.row_store import RowStore
 from ..results.update import Update
 from ..samples.increments import Increments
-from ..samples.series import FloatArray, IntArray
+from ..samples.pair_series import PairSeries
+from ..samples.series import FloatArray
 from .given_pose import GivenPose, apply_covariance
 from .holes import Holes
 from .notices import Found, Notices
@@ -165,59 +168,57 @@ class Session:
             self._level()
 
     def steps(
-        self,
-        stamps: IntArray,
-        dts: FloatArray,
-        values: FloatArray,
-        span: tuple[int, int],
-        out: FloatArray,
+        self, series: PairSeries, span: tuple[int, int], rows: RowStore
     ) -> Iterator[tuple[int, Found]]:
-        """Run the epochs of ``span`` [start, stop) into ``out``; yield rows that brought events.
+        """Run the pairs of ``span`` [start, stop), each of which follows the one before it.
 
-        ``dts`` (N,) s are the intervals that end at each sample.
+        What is kept of them goes to their ``rows``; those that brought events are yielded.
         """
-        for k, stop in self._levelled_spans(stamps, values, span):
-            yield from self._epochs(stamps, dts, values, (k, stop), out)
+        for part in self._levelled_spans(series, span):
+            yield from self._epochs(series, part, rows.arrays)
 
     def _levelled_spans(
-        self, stamps: IntArray, values: FloatArray, span: tuple[int, int]
+        self, series: PairSeries, span: tuple[int, int]
     ) -> Iterator[tuple[int, int]]:
         """Yield the parts of ``span`` that are run with one level; between them level a stand."""
         first, stop = span
         alignment = self._alignment if self.phase == "standing" else None
         if alignment is not None:
-            missing = np.isnan(values[first:stop]).any(axis=1)
-            known = first + int(np.append(missing, True).argmax())
-            for row in alignment.refine_all(stamps[first:known], values[first:known]):
+            values = series.values(slice(*span))
+            missing = np.isnan(values).any(axis=1)
+            known = int(np.append(missing, True).argmax())
+            for row in alignment.refine_all(
+                series.stamp_ns[first : first + known], values[:known]
+            ):
                 yield first, span[0] + row
                 first = span[0] + row
                 if self.phase != "standing":
                     break
                 self._feet = alignment.result()
                 self._level()
-            if known < stop:
+            if span[0] + known < stop:
                 self._alignment = None
         yield first, stop
 
     def _epochs(
-        self,
-        stamps: IntArray,
-        dts: FloatArray,
-        values: FloatArray,
-        span: tuple[int, int],
-        out: FloatArray,
+        self, series: PairSeries, span: tuple[int, int], kept: tuple[Any, ...]
     ) -> Iterator[tuple[int, Found]]:
         """Run the epochs of ``span`` as they are; yield as `steps` does."""
-        space, w, n = self.space, self.space.w, self.space.n
-        k, stop = span
+        given = self._stamps, series.stamp_ns, *series.arrays
+        w, n, (k, stop) = self._w, self._n, span
         while k < stop:
-            engine = self._walk.engine
-            k = engine.advance(w, n, space.stamps, stamps, dts, values, k, stop, out)
+            k = self._engine.advance(w, n, *given, k, stop, *kept)
             if n[lay.N_NOTICE]:
                 found = self._notices.attend()
-                engine.emit(w, n, out, k - 1)
+                self._engine.keep(w, n, k - 1, *kept)
                 if found:
                     yield k - 1, found
+
+    def heading_variances(self) -> list[float]:
+        """Return the variance of the heading of each foot that is there, rad^2."""
+        own = [self.space.own_block(foot).item(lay.E_ATT + 2, lay.E_ATT + 2) for foot in range(2)]
+        there = [not self._n[lay.N_FOOT + f * lay.N_STRIDE + lay.N_GONE] for f in range(2)]
+        return [each for each, is_there in zip(own, there, strict=True) if is_there]
 
     def can_set_pose(self) -> bool:
         """Return whether `set_pose` can be obeyed now: standing, or the heading is known."""

@@ -13,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from ..kernel import ENTRIES, MODULES, Engine, kernel_functions
+from ..kernel import ENTRIES, MODULES, Engine, kernel_functions, looked_at
 from .c_library import library_source
 from .cache import READY, usable_cache
 from .entries import ENTRY_KINDS, Kind
@@ -80,7 +80,8 @@ def _from_numba(directory: Path | None) -> Functions:
     for name, signature in _signatures().items():
         built[name].compile(signature)
         built[name].disable_compile()
-    return {name: built[name] for name in ENTRIES}
+    plain: Functions = {name: built[name] for name in ENTRIES}
+    return {name: looked_at(f) if name == "take_pair" else f for name, f in plain.items()}
 
 
 def _signatures() -> dict[str, Any]:
@@ -92,6 +93,7 @@ def _signatures() -> dict[str, Any]:
         Kind.REAL: float64,
         Kind.INTEGERS: int64[::1],
         Kind.REALS: float64[::1],
+        Kind.SAMPLE: float64[::1],
         Kind.ROWS: float64[:, ::1],
     }
     return {

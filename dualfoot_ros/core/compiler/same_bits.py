@@ -30,22 +30,20 @@ def same_bits(functions: Calls) -> bool:
 def _computed(functions: Calls) -> Iterator[bytes]:
     """Yield what every entry makes of the same numbers."""
     w, n = _numbers()
-    out, samples = np.zeros((EPOCHS, lay.OUT)), _walk()
-    ring, stamps, dts = np.zeros(RING, dtype=np.int64), np.arange(EPOCHS), np.full(EPOCHS, 0.01)
-    at = 0
+    out, samples, ring = np.zeros((EPOCHS, lay.OUT)), _walk(), np.zeros(RING, dtype=np.int64)
+    stamps, parts = 10**7 * np.arange(EPOCHS), [samples[:, k : k + 3].copy() for k in (0, 3, 6, 9)]
+    rows = [np.zeros((EPOCHS, columns)) for columns in (lay.KEPT, lay.KEPT, 2, *(6,) * 7)]
+    kept = *rows[:3], -1.0, 1, *rows[3:]
+    at = 1
     while at < EPOCHS:
-        at = functions["advance"](w, n, ring, stamps, dts, samples, at, EPOCHS, out)
-    yield w.tobytes() + n.tobytes() + out.tobytes() + ring.tobytes()
-    functions["set_flags"](n, 1, 0, EPOCHS - 1, 1)
+        at = functions["advance"](w, n, ring, stamps, *parts, at, EPOCHS, *kept)
+    functions["keep"](w, n, 0, *kept)
+    yield w.tobytes() + n.tobytes() + ring.tobytes() + b"".join(each.tobytes() for each in rows)
+    functions["set_flags"](n, 1, 0, EPOCHS - 2, 1)
     functions["restore"](w, n, 3)
-    functions["rerun"](w, n, 3, EPOCHS - 1)
+    functions["rerun"](w, n, 3, EPOCHS - 2)
     functions["emit"](w, n, out, 0)
-    told = np.zeros((1, lay.TOLD))
-    told[0, : lay.OUT] = out[0]
-    numbers = functions["tell"](w, told)
-    yield np.append(told, numbers).tobytes()
-    done = functions["step"](w, n, ring, 7, 0.01, samples[0], told)
-    yield np.append(told, done).tobytes() + ring.tobytes()
+    yield from _told(functions, w, n, ring, samples)
     yield w.tobytes() + n.tobytes() + out.tobytes()
     for kind in (None, lay.KNOW_ALL, lay.KNOW_COMMON, lay.KEEP_PLACE, lay.KNOW_NOTHING):
         yield _updated(functions, w, kind)
@@ -60,6 +58,21 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     x[:12] = [0.9, 0.5, -0.1, 0.4, 0.1, 0.02, 0.1, 0.3, 0.05, 0.02, 0.05, 0.2]
     functions["closest"](x, 0.7, 0.05)
     yield x.tobytes()
+
+
+def _told(
+    functions: Calls, w: FloatArray, n: IntArray, ring: IntArray, samples: FloatArray
+) -> Iterator[bytes]:
+    """Yield what is told of the newest epoch, and of two more."""
+    told = np.zeros((1, lay.TOLD))
+    functions["emit"](w, n, told, 0)
+    numbers = functions["tell"](w, told)
+    yield np.append(told, numbers).tobytes()
+    done = functions["step"](w, n, ring, 7, 0.01, samples[0], told)
+    yield np.append(told, done).tobytes() + ring.tobytes()
+    n[lay.N_LONGEST] = 10**8
+    done = functions["take_pair"](w, n, ring, 10**7, samples[1], told)
+    yield np.append(told, done).tobytes() + ring.tobytes()
 
 
 def _updated(functions: Calls, w: FloatArray, kind: int | None) -> bytes:

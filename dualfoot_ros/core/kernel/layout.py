@@ -181,6 +181,8 @@ N_DECIMATE = 9  # samples to one value of the statistic's history
 N_WALKING = 10  # samples for which a foot counts as walking after a swing
 N_SETTLED = 11  # samples without a turn after which a foot has come to rest on its floor
 N_STANDS = 12  # samples after which a stance is one of a stop
+N_LONGEST = 13  # ns between two samples above which some are missing between them
+N_PAIRS = 14  # pairs that `take_pair` has taken since their number was asked for
 N_FOOT = 16  # then per foot:
 N_STRIDE = 8
 N_PHASE = 0  # one of the phases below
@@ -204,6 +206,8 @@ NOTICE_BACK = 8192  # the left foot has samples again; twice that for the right
 NOTICE_FLOOR = 32768  # both feet gain velocity alike while they stand, or the floor moves
 STOOD_S = 0.75  # length of that window
 
+NOT_TAKEN, TAKEN, TO_ATTEND = 0, 1, 2  # what `take_pair` returns
+
 # --- output row ----------------------------------------------------------------------------------
 O_FOOT = 55  # stride from left to right
 O_POS = 0
@@ -218,6 +222,8 @@ O_ZUPT = 41  # innovation 3, S 9, NIS
 O_PRESENT = 54  # 1 where the foot had a sample
 O_RELATIVE = 2 * O_FOOT  # covariance of left minus right position, 3x3
 OUT = O_RELATIVE + 9
+K_VEL, K_QUAT = O_VEL, O_QUAT  # what a trajectory keeps of it begins with the position
+KEPT = O_QUAT + 4  # of a foot
 TOLD_BLOCK = 9 * ROW  # of a covariance block: position, velocity and attitude
 TOLD = OUT + 3 * TOLD_BLOCK  # what is told of a live epoch: the row, then left, right, cross
 

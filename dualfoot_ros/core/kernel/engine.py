@@ -14,8 +14,6 @@ from typing import Any
 
 from . import (
     closest,
-    considered_states,
-    considered_update,
     covariance,
     detector,
     epoch,
@@ -24,6 +22,7 @@ from . import (
     output_row,
     stance_correction,
     strapdown,
+    tiles,
     turn,
     zero_velocity,
 )
@@ -35,10 +34,12 @@ from .at_stances import (
     spacing_constraint,
     spacing_learner,
 )
+from .schmidt import considered_states, considered_update
 
 MODULES = (
     closest,
     strapdown,
+    tiles,
     covariance,
     considered_states,
     considered_update,

@@ -10,12 +10,6 @@ them, truth minus estimate, so they are fed back with the other sign.
 
 import math
 
-from .considered_states import KNOWN, consider_all, consider_common, turn_over
-from .considered_update import (
-    clear_rest,
-    considering_gain,
-    knowing_all,
-)
 from .layout import (
     BA,
     BG,
@@ -44,7 +38,14 @@ from .layout import (
     SIDE,
     VEL,
 )
+from .schmidt.considered_states import KNOWN, consider_all, consider_common
+from .schmidt.considered_update import (
+    clear_rest,
+    considering_gain,
+    knowing_all,
+)
 from .strapdown import rotate_navigation, rotation_increment
+from .tiles import turn_over
 from .turn import keeps_gauge, turn_correction
 
 
@@ -96,7 +97,7 @@ def correct_considering(w, rows, kind):
     clear_rest(w, rows)
     if kind == KNOW_ALL:
         consider_all(w)
-        turn_over(w, KNOWN)
+        turn_over(w, PLR, KNOWN, E_BA)
         nis = knowing_all(w)
     elif kind == KNOW_COMMON:
         nis = considering_gain(w, consider_common(w))

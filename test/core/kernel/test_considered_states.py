@@ -4,12 +4,16 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core.kernel import layout as lay
-from dualfoot_ros.core.kernel.considered_states import (
+from dualfoot_ros.core.kernel.schmidt.considered_states import (
     consider_all,
     consider_common,
     consider_foot,
 )
-from dualfoot_ros.core.kernel.considered_update import considering_gain, knowing_all, knowing_foot
+from dualfoot_ros.core.kernel.schmidt.considered_update import (
+    considering_gain,
+    knowing_all,
+    knowing_foot,
+)
 
 from .states import random_workspace
 

@@ -15,8 +15,7 @@ states have no branch and much to do, so that a compiler takes several states at
 
 import math
 
-from .considered_states import KNOWN
-from .layout import (
+from ..layout import (
     JOINT,
     PLACE,
     PLL,
@@ -38,6 +37,7 @@ from .layout import (
     SIDE,
     X_CC,
 )
+from .considered_states import KNOWN
 
 LEAST_PIVOT = 1e-18  # a variance below it is none: the state is known already
 TOGETHER = 4  # considered states that are taken at once

@@ -6,12 +6,11 @@ that a constraint between the feet corrects the one against the other and does n
 Each writes rows [P_cc, P_c H'] to S_CC, the last one also P_.c to S_PC, a column of JOINT a state.
 """
 
-from .layout import (
+from ..layout import (
     CONSIDERED,
     CONSIDERED_FOOT,
     DIAGONAL,
     E_ATT,
-    E_BA,
     E_BG,
     E_POS,
     JOINT,
@@ -22,7 +21,6 @@ from .layout import (
     ROW,
     ROW_CC,
     ROWS_MOST,
-    S_A,
     S_CC,
     S_G,
     S_GC,
@@ -102,14 +100,6 @@ def consider_foot(w, block, side):
         clear_beyond(w, S_CC + ROW_CC * k, CONSIDERED_FOOT)
         for m in range(ROWS_MOST):
             put_known(w, k, m, w[S_G + JOINT * m + side + KNOWN + k])
-
-
-def turn_over(w, first):
-    """Write the rows of the transposed cross block from ``first`` to the gyro bias to S_A."""
-    for i in range(first, E_BA):
-        for j in range(15):
-            w[S_A + ROW * i + j] = w[PLR + ROW * j + i]
-        w[S_A + ROW * i + 15] = 0.0
 
 
 def consider_common(w):

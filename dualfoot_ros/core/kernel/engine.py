@@ -34,7 +34,7 @@ from .at_stances import (
     spacing_constraint,
     spacing_learner,
 )
-from .schmidt import considered_states, considered_update
+from .schmidt import considered_states, considered_update, known_states
 
 MODULES = (
     closest,
@@ -42,6 +42,7 @@ MODULES = (
     tiles,
     covariance,
     considered_states,
+    known_states,
     considered_update,
     measurement_update,
     stance_correction,

@@ -13,6 +13,7 @@ import math
 from .layout import (
     BA,
     BG,
+    CONSIDERED,
     E_ATT,
     E_BA,
     E_BG,
@@ -100,7 +101,8 @@ def correct_considering(w, rows, kind):
         turn_over(w, PLR, KNOWN, E_BA)
         nis = knowing_all(w)
     elif kind == KNOW_COMMON:
-        nis = considering_gain(w, consider_common(w))
+        consider_common(w)
+        nis = considering_gain(w, CONSIDERED)
     else:
         nis = considering_gain(w, 0)
         for k in range(ROWS_MOST):

@@ -16,8 +16,6 @@ import numpy as np
 
 from . import (
     closest,
-    considered_states,
-    considered_update,
     covariance,
     detector,
     epoch,
@@ -25,6 +23,7 @@ from . import (
     measurement_update,
     stance_correction,
     strapdown,
+    tiles,
     turn,
     zero_velocity,
 )
@@ -38,13 +37,16 @@ from .at_stances import (
     spacing_learner,
 )
 from .outputs import kept_row, output_row
+from .schmidt import considered_states, considered_update, known_states
 
 STAMPS = np.iinfo(np.int64)  # that the library takes
 MODULES = (
     closest,
     strapdown,
+    tiles,
     covariance,
     considered_states,
+    known_states,
     considered_update,
     measurement_update,
     stance_correction,

@@ -103,24 +103,25 @@ F_NEWEST = F_REST + 6  # the same of the newest window, which may already be a s
 F_WINDOWS = F_NEWEST + 6  # quiet windows of the stand
 
 # --- scratch -------------------------------------------------------------------------------------
-S_A = F_WINDOWS + 1  # a 15x16 block
-S_B = S_A + BLOCK  # another
+LINE = 8  # numbers of a line of the cache, at one of which begins what is taken several at once
+S_A = F_WINDOWS + LINE - F_WINDOWS % LINE  # a block of ROW rows
 SIDE = ROW  # error state of one foot in a vector of both: 15 and one pad
 JOINT = 2 * SIDE  # error state of both feet, left then right
 ROWS_MOST = 3  # rows of a measurement
-S_G = S_B + BLOCK  # P H', a column of JOINT a row of the measurement
-S_S = S_G + ROWS_MOST * JOINT  # innovation covariance, 3x3
-S_Y = S_S + ROWS_MOST * ROWS_MOST  # innovation
-S_H = S_Y + ROWS_MOST  # measurement matrix, rows of JOINT
+S_G = S_A + ROW * ROW  # P H', a column of JOINT a row of the measurement
+S_H = S_G + ROWS_MOST * JOINT  # measurement matrix, rows of JOINT
 S_K = S_H + ROWS_MOST * JOINT  # gain, a column of JOINT a row of the measurement
 S_PC = S_K + ROWS_MOST * JOINT  # P times each considered state, columns of JOINT
-S_CC = S_PC + CONSIDERED * JOINT  # [P_cc, P_c H'] of the considered states, then [U, X]
+S_DX = S_PC + CONSIDERED * JOINT  # estimated error state of both feet
+S_CC = S_DX + JOINT  # [P_cc, P_c H'] of the considered states, then [U, X]
 ROW_CC = SIDE  # its row
 X_CC = CONSIDERED  # from the start of a row to its part of P_c H', one number a row of H
-S_GC = S_CC + CONSIDERED * ROW_CC  # P_c H' kept, ROWS_MOST each
-S_L = S_GC + CONSIDERED * ROWS_MOST  # factor of the innovation covariance, 3x3
-S_DX = S_L + ROWS_MOST * ROWS_MOST  # estimated error state of both feet
-S_CDT = S_DX + JOINT  # R_nb dt, 3x3
+S_GC = S_CC + CONSIDERED * ROW_CC  # P_c H' kept
+ROW_GC = 4  # its row, padded
+S_L = S_GC + CONSIDERED * ROW_GC  # factor of the innovation covariance, 3x3
+S_S = S_L + ROWS_MOST * ROWS_MOST  # innovation covariance, 3x3
+S_Y = S_S + ROWS_MOST * ROWS_MOST  # innovation
+S_CDT = S_Y + ROWS_MOST  # R_nb dt, 3x3
 S_SF = S_CDT + 9  # velocity increment in navigation axes, 3
 S_ROTATION = S_SF + 3  # a 3x3 rotation increment
 S_TMP = S_ROTATION + 9  # a 3x3
@@ -164,8 +165,8 @@ L_AFTER = 23  # separation (2,) m after the newest of them
 L_SIZE = 25
 
 # --- rings (length n[N_RING]) --------------------------------------------------------------------
-RINGS = GLRT_RIGHT + 1  # history first, snapshots after it
-SAMPLE = 14  # dt, 12 values, one pad
+RINGS = GLRT_RIGHT + LINE - GLRT_RIGHT % LINE  # history first, snapshots after it
+SAMPLE = 2 * LINE  # dt, 12 values, pads
 
 # --- int64 workspace -----------------------------------------------------------------------------
 N_RING = 0  # length of the rings, epochs

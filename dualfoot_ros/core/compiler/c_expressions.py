@@ -71,7 +71,7 @@ class ExpressionWriter:
             return f"{array}.x[{array}.columns * ({row}) + {column}]", REAL
         return (
             f"{array}[{self._written(node.slice)[0]}]",
-            INTEGER if kind is Kind.INTEGERS else REAL,
+            INTEGER if kind in {Kind.INTEGERS, Kind.BYTES} else REAL,
         )
 
     def _binop(self, node: ast.BinOp) -> Typed:

@@ -95,6 +95,7 @@ TAKEN = {
     Kind.REALS: "data",
     Kind.ROWS: "rows",
     Kind.SAMPLE: "data",
+    Kind.BYTES: "data",
 }
 LOOKED_AT = {Kind.INTEGER: "is_integer(a[{k}])", Kind.SAMPLE: "is_sample(a[{k}], a[0])"}
 MADE = {Kind.INTEGER: "PyLong_FromLongLong", Kind.REAL: "PyFloat_FromDouble"}

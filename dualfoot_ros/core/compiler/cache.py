@@ -9,6 +9,8 @@ import hashlib
 import os
 import sys
 import tempfile
+import types
+from collections.abc import Iterable, Mapping
 from importlib.machinery import PathFinder
 from pathlib import Path
 
@@ -22,7 +24,8 @@ def cache_directory() -> Path:
 
     ``DUALFOOT_CACHE_DIR`` overrides the user's cache directory.
     """
-    text = f"{_loaded_code()} {_translation()} {sys.version} {_numba_version()}"
+    code = loaded_code(kernel_functions(), MODULES)
+    text = f"{code} {_translation()} {sys.version} {_numba_version()}"
     key = hashlib.sha256(text.encode()).hexdigest()[:16]
     home = os.environ.get("XDG_CACHE_HOME") or str(Path("~/.cache").expanduser())
     base = Path(os.environ.get("DUALFOOT_CACHE_DIR") or Path(home) / "dualfoot_ros")
@@ -41,15 +44,17 @@ def usable_cache() -> Path | None:
         return None
 
 
-def _loaded_code() -> str:
+def loaded_code(
+    functions: Mapping[str, types.FunctionType], modules: Iterable[types.ModuleType]
+) -> str:
     """Return all that the compiled form depends on, as it was loaded (files may have changed)."""
     codes = [
         (name, f.__code__.co_code.hex(), f.__code__.co_consts, f.__code__.co_names)
-        for name, f in sorted(kernel_functions().items())
+        for name, f in sorted(functions.items())
     ]
     numbers = sorted(
         (module.__name__, name, value)
-        for module in MODULES
+        for module in modules
         for name, value in vars(module).items()
         if isinstance(value, int | float)
     )

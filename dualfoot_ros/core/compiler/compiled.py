@@ -10,16 +10,15 @@ import types
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from ..kernel import ENTRIES, MODULES, Engine, kernel_functions, looked_at
-from .c_library import library_source
 from .cache import READY, usable_cache
 from .entries import ENTRY_KINDS, Kind
+from .kept_library import kept_library
 from .numba_cache import keep_in
 from .same_bits import same_bits
-from .shared_library import Functions, can_compile, library_path, load_library, make_library
+from .shared_library import Functions
 
 
 @cache
@@ -32,46 +31,13 @@ def compiled() -> Engine:
         When there is neither a C compiler nor numba, and the cache is cold.
     """
     directory = usable_cache()
-    functions = _from_kept_library(directory)
+    functions = kept_library(directory, "kernel", kernel_functions(), ENTRY_KINDS, same_bits)
     if functions is None:
         functions = _from_numba(directory)
     if directory is not None:
         with suppress(OSError):
             (directory / READY).touch()
     return Engine("compiled", **functions)
-
-
-def _from_kept_library(directory: Path | None) -> Functions | None:
-    """Return the entries of a library that is kept in ``directory`` where that can be.
-
-    Once it is loaded no file is needed: where it cannot be kept, it is made for this process.
-    """
-    if directory is not None:
-        with suppress(OSError):  # a full disk, a folder that has gone
-            return _from_library(directory)
-    with suppress(OSError), TemporaryDirectory() as folder:
-        return _from_library(Path(folder))
-    return None
-
-
-def _from_library(directory: Path) -> Functions | None:
-    """Return the entries of the library in ``directory``, made where it is not there.
-
-    None where it cannot be made, which an empty file in its place tells the next process.
-
-    Raises
-    ------
-    OSError
-        Where ``directory`` takes no file.
-    """
-    path = library_path(directory)
-    if path.exists() or not can_compile():
-        return load_library(path, ENTRY_KINDS)
-    source = library_source(kernel_functions(), ENTRY_KINDS)
-    functions = make_library(path, source, ENTRY_KINDS, same_bits)
-    if functions is None:
-        path.touch()
-    return functions
 
 
 def _from_numba(directory: Path | None) -> Functions:

@@ -15,11 +15,12 @@ class Kind(StrEnum):
     REALS = "double *"
     ROWS = "Rows"  # an array of two dimensions
     SAMPLE = "double *const"  # an array from outside, of whatever kind: it is looked at first
+    BYTES = "uint8_t *"
 
     @property
     def is_array(self) -> bool:
         """Whether it stands for many numbers."""
-        return self in {Kind.INTEGERS, Kind.REALS, Kind.ROWS, Kind.SAMPLE}
+        return self not in {Kind.INTEGER, Kind.REAL}
 
 
 class Entry(NamedTuple):

@@ -43,10 +43,10 @@ class _Definition(ctypes.Structure):
 _kept: list[_Definition] = []  # a function of Python does not own its definition
 
 
-def library_path(directory: Path) -> Path:
-    """Return the path of the kernel for this processor; a home may be that of many machines."""
+def library_path(directory: Path, name: str) -> Path:
+    """Return the path of a library for this processor; a home may be that of many machines."""
     key = hashlib.sha256(_processor().encode()).hexdigest()[:16]
-    return directory / f"kernel-{key}.so"
+    return directory / f"{name}-{key}.so"
 
 
 def _processor() -> str:
@@ -71,7 +71,7 @@ def make_library(
     compiler give such a library.
     """
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
-        code = Path(folder) / "kernel.c"
+        code = Path(folder) / "library.c"
         code.write_text(source, encoding="ascii")
         for k, options in enumerate(_options()):
             made = Path(folder) / f"{k}.so"  # each has its own name: a loaded one stays loaded

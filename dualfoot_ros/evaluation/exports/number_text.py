@@ -8,7 +8,7 @@ is nearer is left to Python.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -52,28 +52,19 @@ def fixed(values: FloatArray, decimals: int) -> Parts | None:
     return Parts(np.signbit(values), whole, fraction, decimals)
 
 
-def seconds(stamp_ns: IntArray) -> Parts:
-    """Return stamps (N,) ns, not before 1970, in seconds with nine decimals."""
-    whole, fraction = np.divmod(stamp_ns, 1_000_000_000)
-    return Parts(np.zeros(len(whole), dtype=bool), whole, fraction, 9)
+def with_point(numbers: IntArray, decimals: int) -> Parts:
+    """Return whole numbers (N,), not negative, with so many of their digits behind the point."""
+    whole, fraction = np.divmod(numbers, 10**decimals)
+    return Parts(np.zeros(len(whole), dtype=bool), whole, fraction, decimals)
 
 
-def integers(values: IntArray) -> Parts:
-    """Return whole numbers (N,)."""
-    return Parts(values < 0, np.abs(values), np.zeros_like(values), 0)
-
-
-def lines(first: Parts, values: FloatArray, decimals: int, separator: str) -> Iterator[bytes]:
-    """Yield the text of rows: ``first`` (N,), then ``values`` (N, K) with so many decimals."""
-    for start in range(0, len(values), BLOCK):
-        rows = slice(start, start + BLOCK)
-        head = Parts(first.negative[rows], first.whole[rows], first.fraction[rows], first.decimals)
-        parts = [fixed(column, decimals) for column in np.ascontiguousarray(values[rows].T)]
-        known = [part for part in parts if part is not None]
-        if len(known) == len(parts):
-            yield _join([head, *known], separator)
-        else:
-            yield _one_by_one(head, values[rows], decimals, separator)
+def lines(first: Parts, values: FloatArray, decimals: int, separator: str) -> bytes:
+    """Return the text of rows: ``first`` (N,), then ``values`` (N, K) with so many decimals."""
+    parts = [fixed(column, decimals) for column in np.ascontiguousarray(values.T)]
+    known = [part for part in parts if part is not None]
+    if len(known) == len(parts):
+        return _join([first, *known], separator)
+    return _one_by_one(first, values, decimals, separator)
 
 
 def _join(columns: Sequence[Parts], separator: str) -> bytes:

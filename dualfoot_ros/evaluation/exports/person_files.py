@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -9,10 +10,10 @@ import numpy as np
 from ...core import FloatArray, PoseSeries
 from ..frames.association import seconds
 from ..person_track import PersonTrack
-from .number_text import BLOCK, integers, lines
+from .text_table import Form, write_table
 from .tum import write_tum
 
-DECIMALS = 6
+FORM = Form(places=0, decimals=6, separator=",")
 COLUMNS = (
     "stamp_ns,time_s,x_m,y_m,z_m,floor_m,heading_deg,walked_m,radius_95_m,"
     "cov_xx_m2,cov_xy_m2,cov_yy_m2,cov_zz_m2"
@@ -38,10 +39,7 @@ def heading_quaternions(heading: FloatArray) -> FloatArray:
 def _write_csv(path: Path, person: PersonTrack) -> Path:
     with path.open("wb") as file:
         file.write(f"{COLUMNS}\n".encode())
-        for first in range(0, len(person.stamp_ns), BLOCK):
-            rows = slice(first, first + BLOCK)
-            stamps, values = integers(person.stamp_ns[rows]), _values(person, rows)
-            file.writelines(lines(stamps, values, DECIMALS, ","))
+        write_table(file, person.stamp_ns, partial(_values, person), FORM)
     return path
 
 

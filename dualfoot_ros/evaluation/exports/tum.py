@@ -9,17 +9,19 @@ from pathlib import Path
 
 import numpy as np
 
-from ...core import FootTrajectory, PoseSeries
-from .number_text import BLOCK, lines, seconds
+from ...core import FloatArray, FootTrajectory, PoseSeries
+from .text_table import Form, write_table
 
-DECIMALS = 9
+FORM = Form(places=9, decimals=9, separator=" ")
 
 
 def write_tum(path: Path, track: FootTrajectory | PoseSeries) -> Path:
     """Write one track; the stamps keep their nanoseconds."""
+
+    def poses(rows: slice) -> FloatArray:
+        """Return position and quaternion (K, 7) of some epochs."""
+        return np.hstack([track.position[rows], track.quaternion[rows]])
+
     with path.open("wb") as file:
-        for first in range(0, len(track), BLOCK):
-            rows = slice(first, first + BLOCK)
-            values = np.hstack([track.position[rows], track.quaternion[rows]])
-            file.writelines(lines(seconds(track.stamp_ns[rows]), values, DECIMALS, " "))
+        write_table(file, track.stamp_ns, poses, FORM)
     return path

@@ -1,6 +1,7 @@
 """The kernel as a library: made, loaded, refused where it is no good, and not needed anywhere."""
 
 import importlib
+import importlib.util
 import shutil
 import subprocess
 import sys
@@ -10,12 +11,12 @@ import pytest
 
 from dualfoot_ros.core.compiler import shared_library
 from dualfoot_ros.core.compiler.c_library import library_source
-from dualfoot_ros.core.compiler.entries import ENTRY_KINDS
+from dualfoot_ros.core.compiler.entries import ENTRY_KINDS, Entry, Kind
 from dualfoot_ros.core.compiler.shared_library import library_path, load_library, make_library
 from dualfoot_ros.core.kernel import ENTRIES, interpreted, kernel_functions
 from dualfoot_ros.core.kernel import layout as lay
 
-compiled_kernel = importlib.import_module("dualfoot_ros.core.compiler.compiled")
+kept_library = importlib.import_module("dualfoot_ros.core.compiler.kept_library")
 FEW = {name: ENTRY_KINDS[name] for name in ("restore", "set_flags")}
 
 pytestmark = pytest.mark.skipif(
@@ -32,17 +33,15 @@ def source():
 @pytest.fixture(scope="module")
 def file(source, tmp_path_factory):
     """Return the library of these entries."""
-    path = library_path(tmp_path_factory.mktemp("library"))
+    path = library_path(tmp_path_factory.mktemp("library"), "kernel")
     assert set(make_library(path, source, FEW, bool)) == set(FEW)
     assert [each.name for each in path.parent.iterdir()] == [path.name]
     return path
 
 
-@pytest.fixture
-def few_entries(monkeypatch):
-    """Let these entries be all, and none of them be compared."""
-    monkeypatch.setattr(compiled_kernel, "ENTRY_KINDS", FEW)
-    monkeypatch.setattr(compiled_kernel, "same_bits", lambda _functions: True)
+def kept(directory, is_good=bool):
+    """Return these entries of a library that is kept in a directory."""
+    return kept_library.kept_library(directory, "kernel", kernel_functions(), FEW, is_good)
 
 
 def test_every_entry_says_what_it_takes():
@@ -85,41 +84,38 @@ def test_arrays_of_another_kind_are_none_of_the_library(file, monkeypatch):
 
 
 def test_another_processor_has_another_library(tmp_path, monkeypatch):
-    here = library_path(tmp_path)
+    here = library_path(tmp_path, "kernel")
     monkeypatch.setattr(shared_library, "_processor", lambda: "another one")
-    assert library_path(tmp_path) != here
+    assert library_path(tmp_path, "kernel") != here
 
 
 def test_a_compiler_that_does_not_know_the_best_options_gets_others(source, tmp_path, monkeypatch):
     monkeypatch.setattr(shared_library, "FAST", ("--no-such-option",))
-    path = library_path(tmp_path)
+    path = library_path(tmp_path, "kernel")
     assert make_library(path, source, FEW, bool)
     assert load_library(path, FEW)
 
 
 def test_options_that_give_other_bits_are_followed_by_others(source, tmp_path):
-    path, looked = library_path(tmp_path), []
+    path, looked = library_path(tmp_path, "kernel"), []
     assert make_library(path, source, FEW, lambda made: looked.append(made) or len(looked) == 3)
     assert len(looked) == 3
     assert [each.name for each in tmp_path.iterdir()] == [path.name]
 
 
-def test_where_nothing_can_be_made_numba_is_asked_and_the_next_time_at_once(
-    few_entries, tmp_path, monkeypatch
-):
-    made, make = [], compiled_kernel.make_library
-    monkeypatch.setattr(compiled_kernel, "make_library", lambda *a: made.append(1) or make(*a))
+def test_where_nothing_can_be_made_numba_is_asked_and_the_next_time_at_once(tmp_path, monkeypatch):
+    made, make = [], kept_library.make_library
+    monkeypatch.setattr(kept_library, "make_library", lambda *a: made.append(1) or make(*a))
     monkeypatch.setattr(shared_library, "COMPILER", shutil.which("false"))
-    assert compiled_kernel._from_library(tmp_path) is None
-    assert compiled_kernel._from_library(tmp_path) is None
+    assert kept(tmp_path) is None
+    assert kept(tmp_path) is None
     assert made == [1]
 
 
-def test_a_library_with_other_bits_is_not_used_now_or_later(few_entries, tmp_path, monkeypatch):
-    monkeypatch.setattr(compiled_kernel, "same_bits", lambda _functions: False)
-    assert compiled_kernel._from_library(tmp_path) is None
-    assert library_path(tmp_path).read_bytes() == b""
-    assert compiled_kernel._from_library(tmp_path) is None
+def test_a_library_with_other_bits_is_not_used_now_or_later(tmp_path):
+    assert kept(tmp_path, is_good=lambda _functions: False) is None
+    assert library_path(tmp_path, "kernel").read_bytes() == b""
+    assert kept(tmp_path) is None
 
 
 @pytest.mark.parametrize("lacks", ["a compiler", "Linux"])
@@ -128,22 +124,20 @@ def test_without_a_compiler_nothing_is_tried(tmp_path, monkeypatch, lacks):
         monkeypatch.setattr(shared_library, "PROCESSOR", tmp_path / "none")
     else:
         monkeypatch.setattr(shared_library, "COMPILER", "no-such-compiler")
-    monkeypatch.setattr(compiled_kernel, "library_source", lambda *_: pytest.fail("translated"))
-    assert compiled_kernel._from_library(tmp_path) is None
+    monkeypatch.setattr(kept_library, "library_source", lambda *_: pytest.fail("translated"))
+    assert kept(tmp_path) is None
     assert list(tmp_path.iterdir()) == []
 
 
-def test_where_nothing_can_be_written_nothing_is_raised(few_entries, tmp_path, monkeypatch):
-    monkeypatch.setattr(compiled_kernel, "TemporaryDirectory", _folder_in(tmp_path / "gone"))
-    assert compiled_kernel._from_kept_library(tmp_path / "gone") is None
+def test_where_nothing_can_be_written_nothing_is_raised(tmp_path, monkeypatch):
+    monkeypatch.setattr(kept_library, "TemporaryDirectory", _folder_in(tmp_path / "gone"))
+    assert kept(tmp_path / "gone") is None
 
 
 @pytest.mark.parametrize("kept_in", [None, "gone"])
-def test_a_library_that_is_kept_nowhere_leaves_no_file(
-    few_entries, tmp_path, monkeypatch, kept_in
-):
-    monkeypatch.setattr(compiled_kernel, "TemporaryDirectory", _folder_in(tmp_path))
-    functions = compiled_kernel._from_kept_library(kept_in and tmp_path / kept_in)
+def test_a_library_that_is_kept_nowhere_leaves_no_file(tmp_path, monkeypatch, kept_in):
+    monkeypatch.setattr(kept_library, "TemporaryDirectory", _folder_in(tmp_path))
+    functions = kept(kept_in and tmp_path / kept_in)
     assert list(tmp_path.iterdir()) == []
     flags = []
     for set_flags in (functions["set_flags"], interpreted().set_flags):
@@ -158,3 +152,16 @@ def _folder_in(path):
     from tempfile import TemporaryDirectory
 
     return lambda: TemporaryDirectory(dir=path)
+
+
+def test_other_functions_have_a_library_of_their_own_named_by_what_they_are(tmp_path, monkeypatch):
+    monkeypatch.setenv("DUALFOOT_CACHE_DIR", str(tmp_path / "cache"))
+    entries = {"times": Entry((Kind.INTEGER,), Kind.INTEGER)}
+    for factor in (2, 3, 2):
+        file = tmp_path / f"numbers_{factor}.py"
+        file.write_text(f"FACTOR = {factor}\n\n\ndef times(x):\n    return FACTOR * x\n")
+        spec = importlib.util.spec_from_file_location("numbers", file)
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        assert kept_library.compiled_module(module, entries, bool)["times"](7) == 7 * factor
+    assert len(list((tmp_path / "cache").rglob("numbers-*.so"))) == 2

@@ -67,7 +67,7 @@ from .rotation import (
     yaw_quaternion,
 )
 from .samples.increments import Increments
-from .samples.large_arrays import make_large_arrays_in, new_array
+from .samples.large_arrays import make_large_arrays_in, new_array, placed
 from .samples.mounting import (
     FORWARD_LEFT_UP,
     IDENTITY,
@@ -182,6 +182,7 @@ __all__ = [
     "new_array",
     "os_error_text",
     "parameter",
+    "placed",
     "quaternion_matrices",
     "quaternion_matrix",
     "quaternion_yaw",

@@ -35,3 +35,22 @@ def new_array(shape: Shape, dtype: Any = np.float64) -> NDArray[Any]:
     if place is None or math.prod(shape) * kind.itemsize < LARGE:
         return np.zeros(shape, dtype=kind)
     return place(shape, kind)
+
+
+def placed(values: NDArray[Any]) -> NDArray[Any]:
+    """Return values that are kept: themselves, or a copy in the place for large ones."""
+    return values if _place.get() is None or values.nbytes < LARGE else _copy(values, values.dtype)
+
+
+def contiguous(values: Any, dtype: Any) -> NDArray[Any]:
+    """Return values as a C-contiguous array of a type: themselves where they are, or a copy."""
+    array = np.asarray(values)
+    if array.ndim == 0 or (array.dtype == np.dtype(dtype) and array.flags.c_contiguous):
+        return np.ascontiguousarray(array, dtype=dtype)
+    return _copy(array, dtype)
+
+
+def _copy(array: NDArray[Any], dtype: Any) -> NDArray[Any]:
+    copy = new_array(array.shape, dtype)
+    copy[...] = array
+    return copy

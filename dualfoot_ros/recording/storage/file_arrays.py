@@ -7,6 +7,7 @@ there is room), and comes back where it is looked at.
 
 from __future__ import annotations
 
+import io
 import math
 import mmap
 import os
@@ -25,7 +26,7 @@ from ...core import RecordingError, make_large_arrays_in, os_error_text
 
 ROOMY = Path("/var/tmp")  # noqa: S108 - files have no name there; /tmp is often in memory itself
 MOST_RESIDENT = 1 << 25  # bytes of the files in memory, before they are let go of
-EVERY_S = 0.01
+EVERY_S = 0.02
 STATM = Path("/proc/self/statm")  # pages: all, resident, those of files
 MEGABYTE = 1_000_000
 
@@ -95,21 +96,26 @@ class Resident:
             pages.madvise(mmap.MADV_DONTNEED)
 
     def _keep_few(self) -> None:
-        least = _of_files()
-        while True:
-            time.sleep(EVERY_S)
-            if _of_files() - least > MOST_RESIDENT:
-                self.let_go()
-                least = _of_files()
-            with self._lock:
-                if not self._files:
-                    self._thread = None
-                    return
+        with STATM.open("rb", buffering=0) as pages:
+            least = _of_files(pages)
+            while not self._is_done():
+                time.sleep(EVERY_S)
+                if _of_files(pages) - least > MOST_RESIDENT:
+                    self.let_go()
+                    least = _of_files(pages)
+
+    def _is_done(self) -> bool:
+        """Return whether there are no files; then the thread ends, and another one may begin."""
+        with self._lock:
+            if not self._files:
+                self._thread = None
+            return self._thread is None
 
 
-def _of_files() -> int:
+def _of_files(pages: io.FileIO) -> int:
     """Return how many bytes of files are resident, those of libraries too."""
-    return int(STATM.read_text(encoding="ascii").split()[2]) * mmap.PAGESIZE
+    pages.seek(0)
+    return int(pages.read().split()[2]) * mmap.PAGESIZE
 
 
 RESIDENT = Resident()

@@ -67,6 +67,7 @@ from .rotation import (
     yaw_quaternion,
 )
 from .samples.increments import Increments
+from .samples.large_arrays import make_large_arrays_in, new_array, placed
 from .samples.mounting import (
     FORWARD_LEFT_UP,
     IDENTITY,
@@ -174,11 +175,14 @@ __all__ = [
     "dot",
     "exact_rotation",
     "fields_of",
+    "make_large_arrays_in",
     "mean_angle",
     "method_parameters",
     "nested",
+    "new_array",
     "os_error_text",
     "parameter",
+    "placed",
     "quaternion_matrices",
     "quaternion_matrix",
     "quaternion_yaw",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core import FloatArray, ImuSeries, IntArray
-from ..timing import AlignerConfig, clean, finite_rows
+from ..timing import AlignerConfig, clean, finite_samples
 from .gyro_agreement import GyroAgreement, gyro_agreement
 from .overlaid import Overlaid, find_overlaid
 from .standstill import Stand, first_stand
@@ -79,8 +79,7 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
     """Return the facts of ``series``."""
     config = config or AlignerConfig()
     good, counters, restart_at = clean(series, config)
-    measured = np.hstack([series.specific_force, series.angular_rate])
-    bad = np.flatnonzero(~finite_rows(measured))
+    bad = np.flatnonzero(~finite_samples(series))
     steps = np.diff(good.stamp_ns)
     regular = steps[steps <= config.max_gap_ns]
     off = _off_beat(regular) if len(regular) else np.zeros(1)

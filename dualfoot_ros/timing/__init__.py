@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .offset.synchronise import Synchronised, synchronise
     from .pairing.batch import AlignReport, align, align_with_report
     from .pairing.pairing_config import AlignerConfig
-    from .pairing.stream_gate import Clean, clean, finite_rows
+    from .pairing.stream_gate import Clean, clean, finite_samples
     from .pairing.streaming import Aligner
 
 __all__ = [
@@ -45,7 +45,7 @@ __all__ = [
     "align_with_report",
     "clean",
     "even_stamps",
-    "finite_rows",
+    "finite_samples",
     "offset_by_motion",
     "synchronise",
 ]

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..kernel import layout as lay
+from ..samples.large_arrays import new_array
 from ..samples.series import BoolArray, FloatArray, IntArray
 from .covariances import CELLS, UPPER, Covariances
 from .events import Event
@@ -28,11 +29,11 @@ class RowStore:
     def __init__(self, count: int, covariances: bool = True) -> None:
         """Make room for ``count`` rows, with ``covariances`` or without."""
         self._count, self._with_covariances = count, covariances
-        self._nominal = [np.zeros((count, NOMINAL)) for _ in range(2)]
+        self._nominal = [new_array((count, NOMINAL)) for _ in range(2)]
         self._present = np.zeros((count, 2), dtype=bool)
-        self._nis = np.zeros((count, 2))
+        self._nis = new_array((count, 2))
         kept = len(TRIANGLES) if covariances else 0  # apart: each can be let go by itself
-        self._triangles = [np.zeros((count, len(UPPER))) for _ in range(kept)]
+        self._triangles = [new_array((count, len(UPPER))) for _ in range(kept)]
         self._turned = np.empty((0, len(SQUARES)))  # covariances of the rows that were turned
         self._newest, self._heading_std = -1, math.nan  # of the newest row, which no turn changes
 

@@ -18,6 +18,7 @@ ALONE_S = 3.0  # at the start or the end of a recording
 SAME_SHARE = 0.5  # of the samples of a foot that the other one has too, to the last digit
 MIXER = np.uint64(0x9E3779B97F4A7C15)  # odd: multiplication by it loses no bit
 LEAST_SAME = 20
+TOGETHER = 1 << 14  # samples at once
 LET_CLOCKS_GO = (
     "let no clock be set during a recording, or stamp by a clock that is not set; if these are "
     "two recordings, cut the bag there"
@@ -112,15 +113,22 @@ def _distinct(series: ImuSeries) -> NDArray[np.uint64]:
 
     Others share one once in 10^19 pairs of samples.
     """
-    values = np.hstack([series.specific_force, series.angular_rate])
+    starts = range(0, len(series), TOGETHER)
+    marks = np.concatenate([_marks(series, slice(k, k + TOGETHER)) for k in starts])
+    marks.sort()
+    distinct: NDArray[np.uint64] = marks[np.diff(marks, prepend=~marks[:1]) != 0]
+    return distinct
+
+
+def _marks(series: ImuSeries, part: slice) -> NDArray[np.uint64]:
+    """Return a number for each of the samples of a part that are finite."""
+    values = np.hstack([series.specific_force[part], series.angular_rate[part]])
     bits = np.ascontiguousarray(values[np.isfinite(values).all(axis=1)]).view(np.uint64)
     marks = np.zeros(len(bits), dtype=np.uint64)
     for column in bits.T:
         marks = (marks ^ column) * MIXER
         marks ^= marks >> np.uint64(29)
-    marks.sort()
-    distinct: NDArray[np.uint64] = marks[np.diff(marks, prepend=~marks[:1]) != 0]
-    return distinct
+    return marks
 
 
 def find_no_overlap(left: Quality, right: Quality) -> Iterator[Finding]:

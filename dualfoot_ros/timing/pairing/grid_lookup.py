@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import BoolArray, FloatArray, ImuSeries, IntArray
+from ...core import BoolArray, FloatArray, ImuSeries, IntArray, new_array
 from .interpolation import between_rows
 from .pairing_config import AlignerConfig
 
@@ -45,6 +45,19 @@ class GridLookup:
         """Place ``grid`` among increasing ``stamps``, of which some are of ``lost`` samples."""
         if not len(stamps):
             return cls._nowhere(len(grid))
+        kinds = np.int64, np.int64, np.float64, np.float64, bool, bool, bool, bool
+        whole = cls(*(new_array(grid.shape, kind) for kind in kinds))
+        for start in range(0, len(grid), TOGETHER):
+            part = slice(start, start + TOGETHER)
+            some = cls._of_some(stamps, grid[part], config, lost)
+            for name, values in vars(whole).items():
+                values[part] = getattr(some, name)
+        return whole
+
+    @classmethod
+    def _of_some(
+        cls, stamps: IntArray, grid: IntArray, config: AlignerConfig, lost: BoolArray | None
+    ) -> GridLookup:
         before = np.searchsorted(stamps, grid, side="right") - 1
         inside = (before >= 0) & (before + 1 < len(stamps))
         low = np.maximum(before, 0)
@@ -80,7 +93,8 @@ class GridLookup:
     def take(self, series: ImuSeries, grid: IntArray, kept: BoolArray) -> ImuSeries:
         """Return the series at the ``kept`` stamps of the grid, NaN where there is no value."""
         field = series.magnetic_field
-        force, rate = (np.full((int(kept.sum()), 3), np.nan) for _ in range(2))
+        force, rate = (new_array((int(kept.sum()), 3)) for _ in range(2))
+        force[:], rate[:] = np.nan, np.nan
         rows, good = np.flatnonzero(self.found[kept]), np.flatnonzero(kept & self.found)
         for start in range(0, len(good), TOGETHER):
             part = slice(start, start + TOGETHER)

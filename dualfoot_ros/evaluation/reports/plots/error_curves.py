@@ -11,7 +11,7 @@ import numpy as np
 from ....core import FEET, FloatArray
 from ...evaluate import Evaluation
 from ...frames.association import Footfalls
-from ...metrics.accuracy import heading_error
+from ...metrics.accuracy import distances, heading_error
 from ...metrics.heading_split import split
 from .style import FOOT, GREEN, LINES, PINK, legend_above, new_figure, save, thinned
 
@@ -29,7 +29,7 @@ def draw_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
         for foot, truth in zip(FEET, run.truth or (), strict=False):
             track = run.feet_tracks[foot]
             walked = Footfalls.of(track).walked(truth.position, truth.stamp_ns)
-            error = np.linalg.norm(track.position - truth.position, axis=1)
+            error = distances(track.position, truth.position)
             some, label = thinned(len(error)), f"{name} {foot}"
             line = walked[some], error[some]
             # On a long walk both lie on each other: the first is wide, so that both show.

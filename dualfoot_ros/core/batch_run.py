@@ -45,8 +45,7 @@ class BatchRun:
                 self._run_stretch(stream, session, k, stop)
                 k = stop
             else:
-                self._add(stream, k)
-                k += 1
+                k += self._align(stream, k) or self._add(stream, k)
         if self._taken:
             late = stream.start_late(int(self._stamps[self._taken[-1]]))
             if late is not None:
@@ -66,12 +65,11 @@ class BatchRun:
             self._stops = next_irregular(regular_samples(self._stamps, good, longest_ns))
         return int(self._stops[k])
 
-    def _one(self, k: int) -> FloatArray:
-        """Return the values (12,) of pair ``k``; one pair after the other is asked for."""
+    def _values_from(self, k: int) -> FloatArray:
+        """Return the values (K, 12) of pair ``k`` and of some after it."""
         if not 0 <= k - self._ahead_from < len(self._ahead):
             self._ahead, self._ahead_from = self._series.values(slice(k, k + AHEAD)), k
-        one: FloatArray = self._ahead[k - self._ahead_from]
-        return one
+        return self._ahead[k - self._ahead_from :]
 
     def _run_stretch(self, stream: PairStream, session: Session, start: int, stop: int) -> None:
         series, span = self._series, slice(start, stop)
@@ -82,8 +80,18 @@ class BatchRun:
         self._kept[span] = numbers
         stream.went_on(stop - start, int(self._stamps[stop - 1]), numbers=numbers)
 
-    def _add(self, stream: PairStream, k: int) -> None:
-        update = stream.add(ImuPair(int(self._stamps[k]), self._one(k)))
+    def _align(self, stream: PairStream, k: int) -> int:
+        """Look for a start from pair ``k`` on, many pairs at once; return how many were taken."""
+        values = self._values_from(k)
+        taken, update = stream.align_all(self._stamps[k : k + len(values)], values)
+        self._taken.extend(range(k, k + taken))
+        if update is not None:
+            self._keep(update)
+        return taken
+
+    def _add(self, stream: PairStream, k: int) -> int:
+        """Feed pair ``k`` alone; return 1, the number of pairs."""
+        update = stream.add(ImuPair(int(self._stamps[k]), self._values_from(k)[0]))
         if update.refused is None:
             self._taken.append(k)
         if any(event.kind is EventKind.RESET for event in update.announced):
@@ -91,6 +99,7 @@ class BatchRun:
             self._kept[:k], self._taken = False, self._taken[-1:]
             self.events.clear()
         self._keep(update)
+        return 1
 
     def _keep(self, update: Update) -> None:
         """Keep an update, and those before it, in the rows of the pairs taken last."""

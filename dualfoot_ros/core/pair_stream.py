@@ -19,7 +19,7 @@ from .results.payloads import Reason
 from .results.update import Update
 from .samples.increments import Increments
 from .samples.pair_gate import MAX_GAP_NS, Jump, PairGate
-from .samples.series import FloatArray, ImuPair
+from .samples.series import FloatArray, ImuPair, IntArray
 from .session import GivenPose, Session
 from .session.session import TOLD
 
@@ -194,8 +194,29 @@ class PairStream:
         return events
 
     def _align(self, stamp: int, values: FloatArray) -> Update:
-        """Look for a start; where pairs have waited for it, run them first."""
-        start = self.alignment.add(stamp, values)
+        """Look for a start."""
+        return self._started(stamp, self.alignment.add(stamp, values))
+
+    def align_all(self, stamps: IntArray, values: FloatArray) -> tuple[int, Update | None]:
+        """Take the first pairs (N, 12) as `add` does, as far as they can be taken many at once.
+
+        That is while nothing but windows matters.  Return how many were taken, and the update of
+        the last one when that has started a track.
+        """
+        if self.session is not None or self._pending or not self.alignment.takes_many:
+            return 0, None
+        count = self.gate.plain(stamps, values)
+        taken, start = self.alignment.add_all(stamps[:count], values[:count])
+        if taken == 0:
+            return 0, None
+        last_ns = int(stamps[taken - 1])
+        self.counters["pairs"] += taken
+        self.gate.went_on(last_ns)
+        update = self._started(last_ns, start)
+        return taken, None if start is None else update
+
+    def _started(self, stamp: int, start: Start | None) -> Update:
+        """Begin with a start, if there is one; where pairs have waited for it, run them first."""
         self.counters["alignment_restarts"] = self.alignment.restarts
         if start is None:
             return self._without(stamp, "aligning")

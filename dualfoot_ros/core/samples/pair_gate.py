@@ -58,6 +58,16 @@ class PairGate:
         """Take note that good pairs have followed each other, up to that of ``stamp``."""
         self._far_ns, self.last_ns = None, stamp
 
+    def plain(self, stamps: IntArray, values: FloatArray) -> int:
+        """Return how many of the next pairs (N, 12) are in order, without a gap, of both feet."""
+        if self.last_ns is None:
+            return 0
+        before = np.concatenate([[self.last_ns], stamps[:-1]])
+        steps = stamps - before  # which may be too many for 64 bits
+        good = (stamps > before) & (steps > 0) & (steps <= MAX_GAP_NS)
+        good &= np.all(np.abs(values) < LIMIT, axis=1)
+        return int(np.append(good, False).argmin())
+
     def _far(self, stamp: int, step: int) -> Refusal | Jump | None:
         """Refuse one stamp that is far off; a second one after it shows that time did jump."""
         far, self._far_ns = self._far_ns, stamp

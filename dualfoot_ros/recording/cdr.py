@@ -2,7 +2,7 @@
 
 All messages here are a ``std_msgs/Header`` (and, for odometry, one more string) followed by
 float64 values only.  While the strings keep their length, every message of a topic has the same
-layout, so a topic is one (N, length) array of bytes; where layouts differ, :func:`decode_one`
+layout, so a topic is rows of bytes; where layouts differ, :func:`decode_one`
 takes message by message.
 """
 
@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core import FloatArray, IntArray
+from .storage.message_rows import MessageRows
 
 LITTLE_ENDIAN = b"\x00\x01\x00\x00"
 BIG_ENDIAN = b"\x00\x00\x00\x00"
@@ -23,7 +24,7 @@ TEXT = 12  # after seconds and nanoseconds
 
 
 def decode(
-    messages: Sequence[bytes] | NDArray[np.uint8],
+    messages: Sequence[bytes] | MessageRows,
     doubles: int,
     texts: int = 1,
     kept: Sequence[slice] = (slice(None),),
@@ -31,34 +32,25 @@ def decode(
     """Return stamps (N,) ns, values (N, K) and the strings; None if layouts differ.
 
     ``texts`` strings follow the stamp, then ``doubles`` float64, of which the columns ``kept`` are
-    returned.  Little-endian messages only; rows of bytes (N, length) have one layout in length.
+    returned.  Little-endian messages only.
     """
-    raw = _as_rows(messages)
-    first = b"" if raw is None else raw[0].tobytes()
-    if raw is None or first[:4] != LITTLE_ENDIAN:
+    rows = MessageRows.of(messages)
+    first = b"" if rows is None else rows[0]
+    if rows is None or first[:4] != LITTLE_ENDIAN:
         return None
     read = _read_texts(first, texts)
     if read is None or len(first) < read[2] + 8 * doubles:
         return None
     strings, lengths_at, start = read
-    if not all(_same(raw[:, at : at + 4]) for at in (0, *lengths_at)):
+    head = rows.columns(0, start)
+    if not all(_same(head[:, at : at + 4]) for at in (0, *lengths_at)):
         return None
-    clock = raw[:, STAMP:TEXT].copy()
-    seconds = clock[:, :4].copy().view("<i4")[:, 0].astype(np.int64)
-    nanoseconds = clock[:, 4:].copy().view("<u4")[:, 0].astype(np.int64)
+    clock = head[:, STAMP:TEXT].copy()
+    seconds, nanoseconds = clock.view("<i4")[:, 0], clock.view("<u4")[:, 1]
     bounds = [part.indices(doubles) for part in kept]
-    parts = [raw[:, start + 8 * a : start + 8 * b].copy().view("<f8") for a, b, _ in bounds]
-    return seconds * 1_000_000_000 + nanoseconds, np.hstack(parts), strings
-
-
-def _as_rows(messages: Sequence[bytes] | NDArray[np.uint8]) -> NDArray[np.uint8] | None:
-    """Return the messages as (N, length) bytes; None where their lengths differ."""
-    if isinstance(messages, np.ndarray):
-        return messages
-    length = len(messages[0])
-    if any(len(message) != length for message in messages):
-        return None
-    return np.frombuffer(b"".join(messages), dtype=np.uint8).reshape(len(messages), length)
+    parts = [rows.columns(start + 8 * a, start + 8 * b).view("<f8") for a, b, _ in bounds]
+    stamps = seconds.astype(np.int64) * 1_000_000_000 + nanoseconds
+    return stamps, np.hstack(parts), strings
 
 
 def decode_one(

@@ -10,6 +10,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from .message_rows import MessageRows
+
 BLOCK = 1 << 12  # messages that are handed on at once
 SEVERAL_TYPES = "several types"
 
@@ -32,15 +34,14 @@ class Message(NamedTuple):
 class Block(NamedTuple):
     """Messages of one topic that follow each other.
 
-    ``log_ns`` (K,) are the times they were logged at; ``rows`` is the CDR bytes, (K, length) where
-    all are of one length.  Blocks of one ``file`` are to be brought into the order of their log
-    times (:func:`.log_order.recorded_order`); where it is None, their order is that of the
-    recording.
+    ``log_ns`` (K,) are the times they were logged at, ``rows`` their CDR bytes.  Blocks of one
+    ``file`` are to be brought into the order of their log times
+    (:func:`.log_order.recorded_order`); where it is None, their order is that of the recording.
     """
 
     topic: str
     log_ns: NDArray[np.int64]
-    rows: NDArray[np.uint8] | Sequence[bytes]
+    rows: MessageRows | Sequence[bytes]
     file: int | None = None
 
 

@@ -14,13 +14,13 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from .bag_source import Block
 from .mcap_format import CHANNEL, CHUNK_HEAD, CHUNK_INDEX, HEAD, MAGIC, MESSAGE
 from .mcap_index import indexed_starts
 from .mcap_scan import decompressor, split, text, u16
+from .message_rows import MessageRows, windows
 
 FOOTER = struct.Struct("<BQQQI8s")  # opcode, length, starts of summary and of its index, crc
 RECORD = struct.Struct("<BQH")  # opcode and length of a record, and the channel of a message
@@ -81,13 +81,12 @@ class McapChunks:
 
     def _block(self, topic: str, records: bytes, starts: NDArray[np.int64]) -> Block:
         """Return the messages whose records begin at ``starts``."""
-        raw = np.frombuffer(records, dtype=np.uint8)
-        heads = sliding_window_view(raw, HEAD_SIZE)[starts]
+        heads = windows(records, HEAD_SIZE)[starts]
         logged = heads[:, LOG_AT : LOG_AT + 8].copy().view("<i8")[:, 0]
         lengths = heads[:, 1:9].copy().view("<i8")[:, 0] - (HEAD_SIZE - HEAD.size)
         first, bodies = int(lengths[0]), starts + HEAD_SIZE
         if first > 0 and (lengths == first).all():
-            return Block(topic, logged, sliding_window_view(raw, first)[bodies], self._number)
+            return Block(topic, logged, MessageRows(records, bodies, first), self._number)
         parts = zip(bodies.tolist(), lengths.tolist(), strict=True)
         return Block(topic, logged, [records[at : at + size] for at, size in parts], self._number)
 

@@ -66,6 +66,7 @@ from .rotation import (
     turn_quaternions,
     yaw_quaternion,
 )
+from .samples.by_block import row_blocks, row_distances, row_lengths, unwrapped_angles
 from .samples.increments import Increments
 from .samples.large_arrays import make_large_arrays_in, new_array, placed
 from .samples.mounting import (
@@ -188,6 +189,9 @@ __all__ = [
     "quaternion_yaw",
     "refusal_of",
     "rotate_each",
+    "row_blocks",
+    "row_distances",
+    "row_lengths",
     "skew",
     "stance_bounds",
     "stance_middles",
@@ -196,5 +200,6 @@ __all__ = [
     "swing_passings",
     "turn_quaternions",
     "turn_rows",
+    "unwrapped_angles",
     "yaw_quaternion",
 ]

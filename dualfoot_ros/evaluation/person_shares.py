@@ -18,6 +18,7 @@ from ..core import (
     IntArray,
     Trajectory,
     new_array,
+    row_blocks,
 )
 
 BLOCK = 1 << 12  # epochs whose matrices are made at once
@@ -42,8 +43,7 @@ def person_position(trajectory: Trajectory, rows: slice | IntArray) -> FloatArra
 def person_positions(trajectory: Trajectory) -> FloatArray:
     """Return that position at all epochs, (N, 3) m."""
     positions = new_array(trajectory.left.position.shape)
-    for first in range(0, len(positions), BLOCK):
-        rows = slice(first, first + BLOCK)
+    for rows in row_blocks(len(positions)):
         positions[rows] = person_position(trajectory, rows)
     return positions
 

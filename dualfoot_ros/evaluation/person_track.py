@@ -68,7 +68,7 @@ def person_track(trajectory: Trajectory) -> PersonTrack:
     shares = person_shares(trajectory)
     stood = [(foot, Footfalls.of(foot)) for foot in feet]
     steps = (np.diff(f.walked(foot.position, foot.stamp_ns), prepend=0.0) for foot, f in stood)
-    floors = (_held(foot, f, foot.position[:, 2]) for foot, f in stood)
+    floors = (_floor(foot, f) for foot, f in stood)
     headings = (_heading(foot, f) for foot, f in stood)
     return PersonTrack(
         stamp_ns=feet[0].stamp_ns,
@@ -86,12 +86,16 @@ def _shared(shares: FloatArray, left: FloatArray, right: FloatArray) -> FloatArr
     return mean
 
 
+def _floor(foot: FootTrajectory, falls: Footfalls) -> FloatArray:
+    """Return the height (N,) m of a foot where it stands; as it is without any stance."""
+    height = foot.position[:, 2]
+    return _held(foot, falls, height[falls.middle]) if len(falls) else height
+
+
 def _held(foot: FootTrajectory, falls: Footfalls, values: FloatArray) -> FloatArray:
-    """Return ``values`` (N,) as they are in the middles of the stances, joined by lines."""
-    if len(falls) == 0:
-        return values
+    """Return ``values`` (M,) in the middles of the stances joined by lines, at all epochs (N,)."""
     time = seconds(foot.stamp_ns, int(foot.stamp_ns[0]))
-    held: FloatArray = np.interp(time, time[falls.middle], values[falls.middle])
+    held: FloatArray = np.interp(time, time[falls.middle], values)
     return held
 
 
@@ -101,9 +105,7 @@ def _heading(foot: FootTrajectory, falls: Footfalls) -> FloatArray:
     if axis is None:
         return np.zeros(len(foot))
     ahead = quaternion_matrices(foot.quaternion[falls.middle]) @ axis
-    stood = np.full(len(foot), np.nan)
-    stood[falls.middle] = np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0]))
-    return _held(foot, falls, stood)
+    return _held(foot, falls, np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0])))
 
 
 def _mean_heading(shares: FloatArray, left: FloatArray, right: FloatArray) -> FloatArray:

@@ -7,11 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import FloatArray, FootTrajectory, PoseSeries
+from ...core import (
+    FloatArray,
+    FootTrajectory,
+    PoseSeries,
+    row_blocks,
+    row_lengths,
+    unwrapped_angles,
+)
 from ..frames.association import Footfalls
 
 NO_LENGTH = 1e-6
-TOGETHER = 1 << 14  # epochs at once
 MARKS_M = 200.0
 """Errors are given at every 200 m of the way, as in Table III of Liu et al. 2023."""
 
@@ -41,12 +47,12 @@ class Errors:
 
 def position_errors(error: FloatArray, walked: FloatArray, marks_m: float = MARKS_M) -> Errors:
     """Summarise (N, 3) position errors along the (N,) walked distance."""
-    size = lengths(error)
+    size = row_lengths(error)
     distance = float(walked[-1])
     marks = np.arange(1, int(distance / marks_m) + 1) * marks_m
     return Errors(
         rmse_m=rms(size),
-        rmse_horizontal_m=rms(lengths(error[:, :2])),
+        rmse_horizontal_m=rms(row_lengths(error[:, :2])),
         rmse_vertical_m=rms(error[:, 2]),
         max_m=float(size.max()),
         end_m=float(size[-1]),
@@ -102,32 +108,13 @@ def heading_error(estimate: FloatArray, truth: FloatArray) -> FloatArray:
     It is the twist about z of ``R_estimate R_truth'``, which no roll or pitch of the foot enters.
     """
     turn = np.empty(len(truth))
-    for start in range(0, len(turn), TOGETHER):
-        part = slice(start, start + TOGETHER)
+    for part in row_blocks(len(turn)):
         ex, ey, ez, ew = np.asarray(estimate[part]).T
         tx, ty, tz, tw = np.asarray(truth[part]).T
         z = ez * tw - ew * tz - ex * ty + ey * tx
         w = ew * tw + ex * tx + ey * ty + ez * tz
         turn[part] = 2.0 * np.arctan2(z, w)
-    return np.unwrap(turn)
-
-
-def lengths(vectors: FloatArray) -> FloatArray:
-    """Return the lengths (N,) of vectors (N, K)."""
-    found = np.empty(len(vectors))
-    for start in range(0, len(found), TOGETHER):
-        part = slice(start, start + TOGETHER)
-        found[part] = np.linalg.norm(vectors[part], axis=1)
-    return found
-
-
-def distances(one: FloatArray, other: FloatArray) -> FloatArray:
-    """Return the distances (N,) of places (N, K) from others."""
-    found = np.empty(len(one))
-    for start in range(0, len(found), TOGETHER):
-        part = slice(start, start + TOGETHER)
-        found[part] = np.linalg.norm(one[part] - other[part], axis=1)
-    return found
+    return unwrapped_angles(turn)
 
 
 def turned(vectors: FloatArray, yaw: FloatArray) -> FloatArray:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core import FEET, ImuSeries
+from ...core import FEET, ImuSeries, row_blocks
 from ...recording import ClockStep, Recording, Topics
 from ..quality import Quality
 from .finding import Finding, Severity
@@ -18,7 +18,6 @@ ALONE_S = 3.0  # at the start or the end of a recording
 SAME_SHARE = 0.5  # of the samples of a foot that the other one has too, to the last digit
 MIXER = np.uint64(0x9E3779B97F4A7C15)  # odd: multiplication by it loses no bit
 LEAST_SAME = 20
-TOGETHER = 1 << 14  # samples at once
 LET_CLOCKS_GO = (
     "let no clock be set during a recording, or stamp by a clock that is not set; if these are "
     "two recordings, cut the bag there"
@@ -113,8 +112,7 @@ def _distinct(series: ImuSeries) -> NDArray[np.uint64]:
 
     Others share one once in 10^19 pairs of samples.
     """
-    starts = range(0, len(series), TOGETHER)
-    marks = np.concatenate([_marks(series, slice(k, k + TOGETHER)) for k in starts])
+    marks = np.concatenate([_marks(series, part) for part in row_blocks(len(series))])
     marks.sort()
     distinct: NDArray[np.uint64] = marks[np.diff(marks, prepend=~marks[:1]) != 0]
     return distinct

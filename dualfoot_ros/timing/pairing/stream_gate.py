@@ -6,11 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core import BoolArray, FloatArray, ImuSeries, Refusal
+from ...core import BoolArray, FloatArray, ImuSeries, Refusal, row_blocks
 from .pairing_config import AlignerConfig
 
 INFINITE = 1e100  # no reading in any unit, and its square may overflow
-TOGETHER = 1 << 14  # samples at once
 
 REFUSALS = (Refusal.NOT_FINITE, Refusal.DUPLICATE, Refusal.OUT_OF_ORDER)
 COUNTERS: tuple[str, ...] = ("accepted", *REFUSALS, Refusal.GAP)
@@ -93,8 +92,7 @@ def finite_rows(values: FloatArray) -> BoolArray:
 def finite_samples(series: ImuSeries) -> BoolArray:
     """Return (N,) where all six numbers of a sample are finite, and so are their squares."""
     finite = np.empty(len(series), dtype=bool)
-    for start in range(0, len(series), TOGETHER):
-        part = slice(start, start + TOGETHER)
+    for part in row_blocks(len(series)):
         finite[part] = finite_rows(series.specific_force[part])
         finite[part] &= finite_rows(series.angular_rate[part])
     return finite

@@ -65,7 +65,8 @@ C_ZUPT_CONSIDERS = C_GRAVITY + 13  # 1 when a zero-velocity update takes heading
 C_HEIGHT_DRIFT = (
     C_GRAVITY + 16
 )  # (m/s)^2, vertical velocity that zero-velocity updates let through
-C_FOOT = C_GRAVITY + 17  # then per foot:
+C_PERIOD = C_GRAVITY + 17  # nominal interval of the samples, s
+C_FOOT = C_GRAVITY + 18  # then per foot:
 C_STRIDE = 8
 C_LEVER = 0  # sensor to pivot of the foot, body frame, m
 C_STILL_RATE = 3  # standstill angular rate, rad/s
@@ -181,6 +182,7 @@ N_DECIMATE = 9  # samples to one value of the statistic's history
 N_WALKING = 10  # samples for which a foot counts as walking after a swing
 N_SETTLED = 11  # samples without a turn after which a foot has come to rest on its floor
 N_STANDS = 12  # samples after which a stance is one of a stop
+N_UNEVEN = 13  # newest epoch whose interval was not nearly the nominal one, -1 for none
 N_FOOT = 16  # then per foot:
 N_STRIDE = 8
 N_PHASE = 0  # one of the phases below

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial
 
 from ..carried.probability import nis_gate
@@ -66,6 +65,6 @@ def _apply(
             block[axis, axis] += off * off
     outcome = apply(estimate)
     if outcome.accepted:
-        return replace(outcome, reason=Reason.DID_NOT_FIT)
+        return outcome._replace(reason=Reason.DID_NOT_FIT)
     space.w[: lay.STATE] = before  # it has nothing to say any more
     return apply(estimate)

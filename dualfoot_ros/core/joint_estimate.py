@@ -207,19 +207,17 @@ class JointEstimate:
         result = getattr(self._engine, entry)(self._space.w, self._x, *given)
         return float(result), self._x.tolist()
 
-    def constrain_distance(
-        self, c0: float, std: float, *, solves: bool, separation: Sequence[float] | None = None
-    ) -> tuple[bool, list[float]]:
-        """Bring the feet to ``c0`` m, known to ``std`` m, if they are farther apart.
+    def act_back(self, entry: str, first: int, gate: float, *given: float) -> list[float] | None:
+        """Go back to before epoch ``first``, run an ``entry`` as `act` does, and all since again.
 
-        ``separation`` (3,) m is left minus right position, where it is not that of now; unless the
-        kernel ``solves`` the state stays as it is.  Returns whether they are, and what was found.
+        Returns the array as `act` does, or None where the NIS a row is beyond ``gate``: then the
+        state is of no use any more.
         """
-        given = (0.0, 0.0, 0.0) if separation is None else separation
-        exceeds, found = self.act(
-            "constrain_distance", c0, std, solves, separation is not None, *given
+        space = self._space
+        fits = getattr(self._engine, entry + "_back")(
+            space.w, space.n, self._x, first, gate, *given
         )
-        return exceeds != 0.0, found
+        return self._x.tolist() if fits else None
 
     def measured(self, rows: int) -> tuple[FloatArray, FloatArray]:
         """Return innovation (m,) and S (m, m) of the ``rows`` that `act` has updated with."""

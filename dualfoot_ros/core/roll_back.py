@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
+from .constraints.compiled_constraint import CompiledConstraint
 from .constraints.method import Request
 from .joint_estimate import JointEstimate, Outcome
 from .kernel import Engine, Workspace
 from .kernel import layout as lay
+from .misfit import MISFIT, apply_doubting
 
 ACTIONS = 16  # constraints kept before those that no roll-back can reach are dropped
+Feet = Sequence[int]
+
+
+class Action(NamedTuple):
+    """A constraint and the epoch it was applied at; ``doubted`` feet are where it may not fit."""
+
+    epoch: int
+    apply: Callable[[JointEstimate], Outcome]
+    doubted: Feet
 
 
 class RollBack:
@@ -20,7 +33,8 @@ class RollBack:
 
     def __init__(self, space: Workspace) -> None:
         self._space = space
-        self._actions: list[tuple[int, Callable[[JointEstimate], Outcome]]] = []
+        self._actions: list[Action] = []
+        self._newest = -1  # epoch of the newest of them
 
     def use(self, engine: Engine, estimate: JointEstimate) -> None:
         """Go on with another form of the kernel."""
@@ -29,6 +43,7 @@ class RollBack:
     def forget(self) -> None:
         """Forget what was applied: it cannot be applied again."""
         self._actions.clear()
+        self._newest = -1
 
     def clean_phases(self, bits: Sequence[int]) -> None:
         """Undo the zero velocity of a stance, or the swing within one, that was none.
@@ -61,44 +76,68 @@ class RollBack:
         change()
         self._engine.rerun(self._space.w, self._space.n, epoch, epoch)
 
-    def apply(self, requests: Sequence[Request]) -> list[tuple[Request, Outcome]]:
-        """Apply all at their moments, or all now, and return what came of each, by epoch."""
-        now = self._space.epoch
-        if requests[0].roll_back:
-            if len(requests) > 1:
-                requests = sorted(requests, key=lambda request: request.epoch)
-            outcomes = self._replay(requests[0].epoch + 1, requests)
-        else:
-            outcomes = [request.apply(self._estimate) for request in requests]
-        pairs = list(zip(requests, outcomes, strict=True))
-        for request, outcome in pairs:
-            if outcome.accepted:
-                self._actions.append((request.epoch if request.roll_back else now, request.apply))
-        if len(self._actions) > ACTIONS:
-            oldest = self._space.oldest  # asked once: some methods act at every epoch
-            self._actions = [action for action in self._actions if action[0] >= oldest]
-        return pairs
+    def apply(self, requests: Sequence[Request], doubted: Feet = ()) -> list[Outcome]:
+        """Apply all at their moments, or all now; return what came of each.
 
-    def _replay(self, first: int, fresh: Sequence[Request]) -> list[Outcome]:
+        They are in the order of their epochs.  Where one cannot fit, the places of the ``doubted``
+        feet are taken for unknown.
+        """
+        space = self._space
+        if requests[0].roll_back:
+            fresh = [Action(request.epoch, request.apply, doubted) for request in requests]
+            outcomes = self._replay(requests[0].epoch + 1, fresh)
+        else:
+            fresh = [Action(space.epoch, request.apply, doubted) for request in requests]
+            outcomes = [self._outcome(action) for action in fresh]
+        for action, outcome in zip(fresh, outcomes, strict=True):
+            if outcome.accepted:
+                self._actions.append(action)
+                self._newest = max(self._newest, action.epoch)
+        if len(self._actions) > ACTIONS:
+            oldest = space.oldest  # asked once: some methods act at every epoch
+            self._actions = [action for action in self._actions if action.epoch >= oldest]
+        return outcomes
+
+    def _outcome(self, action: Action) -> Outcome:
+        """Apply an action to the present state."""
+        if not action.doubted:
+            return action.apply(self._estimate)
+        return apply_doubting(self._space, self._estimate, action.apply, action.doubted)
+
+    def _replay(self, first: int, fresh: Sequence[Action]) -> list[Outcome]:
         """Go back to before epoch ``first`` and run up to the newest again.
 
         Constraints already applied since are applied again, each at its own epoch; the ``fresh``
         ones, none earlier than ``first - 1``, join them.  Returns what came of the fresh ones.
         """
+        if len(fresh) == 1 and self._newest < first:  # nearly always
+            outcome = self._replay_compiled(first, fresh[0])
+            if outcome is not None:
+                return [outcome]
         space, engine = self._space, self._engine
         w, n = space.w, space.n
         engine.restore(w, n, first)
         outcomes = []
-        actions = [(request.epoch, request.apply, True) for request in fresh]
-        old = [(epoch, apply, False) for epoch, apply in self._actions if epoch >= first]
-        if old:
-            actions = sorted([*old, *actions], key=lambda action: action[0])
-        for epoch, apply, is_fresh in actions:
-            if first <= epoch:
-                engine.rerun(w, n, first, epoch)
-                first = epoch + 1
-            outcome = apply(self._estimate)
+        actions = [(action, True) for action in fresh]
+        actions += [(action, False) for action in self._actions if action.epoch >= first]
+        # of one epoch those that were there before come first
+        for action, is_fresh in sorted(actions, key=lambda each: (each[0].epoch, each[1])):
+            if first <= action.epoch:
+                engine.rerun(w, n, first, action.epoch)
+                first = action.epoch + 1
+            outcome = self._outcome(action)
             if is_fresh:
                 outcomes.append(outcome)
         engine.rerun(w, n, first, space.epoch)
         return outcomes
+
+    def _replay_compiled(self, first: int, fresh: Action) -> Outcome | None:
+        """Do the same with one constraint, just before ``first``, if the kernel can do it at once.
+
+        None where it cannot, or the constraint does not fit; then nothing is changed that going
+        back does not mend.
+        """
+        if not isinstance(fresh.apply, CompiledConstraint):
+            return None
+        gate = MISFIT if fresh.doubted else math.inf
+        return fresh.apply.go_back(self._estimate, first, gate)

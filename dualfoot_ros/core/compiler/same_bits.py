@@ -49,7 +49,7 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     yield w.tobytes() + n.tobytes() + out.tobytes()
     for kind in (None, lay.KNOW_ALL, lay.KNOW_COMMON, lay.KEEP_PLACE, lay.KNOW_NOTHING):
         yield _updated(functions, w, kind)
-    yield from _constrained(functions, w)
+    yield from _constrained(functions, w, n)
     x = np.zeros(lay.X_SIZE)
     nis = functions["landing"](w, n, x, 1, 0.06)
     yield np.append(x, nis).tobytes()
@@ -80,7 +80,7 @@ def _updated(functions: Calls, w: FloatArray, kind: int | None) -> bytes:
     return w.tobytes() + np.append(x, nis).tobytes()
 
 
-def _constrained(functions: Calls, w: FloatArray) -> Iterator[bytes]:
+def _constrained(functions: Calls, w: FloatArray, n: IntArray) -> Iterator[bytes]:
     """Yield the state after each constraint between the feet."""
     x = np.zeros(lay.X_SIZE)
     for lateral, kind in ((0, lay.KNOW_COMMON), (1, lay.KNOW_NOTHING)):
@@ -88,6 +88,12 @@ def _constrained(functions: Calls, w: FloatArray) -> Iterator[bytes]:
         yield w.tobytes() + np.append(x, nis).tobytes()
     exceeds = functions["constrain_distance"](w, x, 0.1, 0.05, 1, 0, 0.0, 0.0, 0.0)
     yield w.tobytes() + np.append(x, exceeds).tobytes()
+    for gate in (1e-9, 1e9):
+        back = w, n, x, EPOCHS - 4, gate
+        functions["constrain_spacing_back"](*back, 0.6, 0.8, 0.15, 0.08, 0.15, 0, lay.KNOW_COMMON)
+        yield w.tobytes() + x.tobytes()
+        functions["constrain_distance_back"](*back, 0.1, 0.05, 1, 0, 0.0, 0.0, 0.0)
+        yield w.tobytes() + x.tobytes()
     learnt = np.zeros(lay.L_SIZE)
     learnt[lay.L_COVARIANCE : lay.L_BEGUN] = (0.01 * np.eye(4) + 0.001).ravel()
     for _ in range(2):

@@ -18,6 +18,7 @@ from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit
 from .distance_solvers import norm
 from .method import Gait, Method, Request
+from .minimum_moment import distance_given, nis_of
 
 
 @dataclass(frozen=True)
@@ -59,9 +60,10 @@ class MaxDistance(Method):
     def apply(self, estimate: JointEstimate) -> Outcome:
         """Project the joint state onto |r| = bound."""
         bound, std = self.config.bound, self.config.bound_std
-        exceeds, found = estimate.constrain_distance(bound, std, solves=True)
-        error, s = found[lay.X_Y], found[lay.X_S]
+        exceeds, found = estimate.act(
+            "constrain_distance", *distance_given(bound, std, solves=True)
+        )
         after = norm(found[lay.X_AFTER : lay.X_DISTANCE]) if exceeds else None
-        nis = error * error / s if s > 0.0 else float("nan")
         limit = DistanceLimit(found[lay.X_DISTANCE], bound, after)
-        return Outcome(np.array([error]), np.array([[s]]), nis, exceeds, limit)
+        innovation, s = np.array([found[lay.X_Y]]), np.array([[found[lay.X_S]]])
+        return Outcome(innovation, s, nis_of(found), exceeds != 0.0, limit)

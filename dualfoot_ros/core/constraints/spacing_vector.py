@@ -22,6 +22,7 @@ from ..joint_estimate import LEFT_ALONE, JointEstimate, Outcome
 from ..kernel import layout as lay
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit, Passing
+from .compiled_constraint import CompiledConstraint
 from .learnt_spacing import Spacing
 from .method import Gait, Method, Request, StancePhase
 from .varying_distance import feet_adjacent
@@ -114,9 +115,7 @@ class SpacingVector(Method):
             moment = feet_adjacent(gait, other, range(swing[0], swing[-1] + 1))
         if not gait.remembers(moment) or gait.in_stance(other, moment):
             return ()
-        spacing = self.spacing.value_m
-        constrain = partial(self.apply, heading=stance.heading, spacing=spacing)
-        return (Request(moment, True, constrain),)
+        return (Request(moment, True, self.constraint(stance.heading)),)
 
     def note(self, outcome: Outcome) -> None:
         """Learn the spacing, if it was not given."""
@@ -126,14 +125,13 @@ class SpacingVector(Method):
         """Learn the placement anew."""
         self.spacing.moved()
 
-    def apply(
-        self, estimate: JointEstimate, heading: float, spacing: float | None = None
-    ) -> Outcome:
-        """Project onto eq. (9), or onto its component across ``heading`` (rad), and in height."""
-        config = self.config
-        spacing = self.spacing.value_m if spacing is None else spacing
-        nis, found = estimate.act(
-            "constrain_spacing",
+    def constraint(self, heading: float) -> CompiledConstraint:
+        """Return the constraint at a ``heading`` (rad), to the spacing as it is known now.
+
+        It is eq. (9), or its component across the heading, and the height.
+        """
+        config, spacing = self.config, self.spacing.value_m
+        given = (
             math.cos(heading),
             math.sin(heading),
             spacing,
@@ -142,6 +140,13 @@ class SpacingVector(Method):
             config.variant == "lateral",
             LEFT_ALONE[config.heading_correction],
         )
+        outcome = partial(self._outcome, heading=heading, spacing=spacing)
+        return CompiledConstraint("constrain_spacing", given, outcome)
+
+    def _outcome(
+        self, estimate: JointEstimate, found: list[float], heading: float, spacing: float
+    ) -> Outcome:
+        """Return what came of a constraint, of what the kernel has found."""
         passing = Passing(
             DistanceLimit(found[lay.X_DISTANCE], spacing),
             heading,
@@ -149,7 +154,7 @@ class SpacingVector(Method):
             found[lay.X_AFTER : lay.X_AFTER + 3],
             found[lay.X_LATERAL],
         )
-        return Outcome(*estimate.measured(self.dimensions), nis, True, passing)
+        return Outcome(*estimate.measured(self.dimensions), found[lay.X_NIS], True, passing)
 
 
 def rows_of(config: SpacingVectorConfig) -> int:

@@ -72,6 +72,8 @@ ENTRIES = (
     "observe",
     "constrain_spacing",
     "constrain_distance",
+    "constrain_spacing_back",
+    "constrain_distance_back",
     "learn_spacing",
     "landing",
 )
@@ -96,6 +98,8 @@ class Engine:
     observe: Callable[..., Any]
     constrain_spacing: Callable[..., Any]
     constrain_distance: Callable[..., Any]
+    constrain_spacing_back: Callable[..., Any]
+    constrain_distance_back: Callable[..., Any]
     learn_spacing: Callable[..., Any]
     landing: Callable[..., Any]
 

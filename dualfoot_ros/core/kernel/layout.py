@@ -154,7 +154,9 @@ X_NOW = X_BEFORE + 3  # what it is at the time of the constraint
 X_AFTER = X_NOW + 3  # the same with the constraint
 X_DISTANCE, X_LATERAL = X_AFTER + 3, X_AFTER + 4  # of X_BEFORE: length, component to the left, m
 X_VELOCITY = X_LATERAL + 1  # of a landing (3,) m/s
-X_SIZE = X_VELOCITY + 3
+X_NIS = X_VELOCITY + 3  # of the constraint
+X_EXCEEDS = X_NIS + 1  # 1 where the distance exceeds what it is brought to
+X_SIZE = X_EXCEEDS + 1
 
 # --- the array of the spacing that is learnt, a filter of its own --------------------------------
 L_STATE = 0  # spacing, placement (2,), advance a passing, m

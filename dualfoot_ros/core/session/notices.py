@@ -14,7 +14,7 @@ from ..joint_estimate import Outcome
 from ..kernel import layout as lay
 from ..results.events import FEET, Event, EventKind
 from .absence import Presence
-from .lost_track import doubting, lost_speed
+from .lost_track import lost_speed
 from .walk_state import WalkState
 
 Found = list[Event]
@@ -171,8 +171,8 @@ class Notices:
                 return []
             spacing = walk.spacing[0] if walk.spacing else 0.0
             beside = partial(walk.absences.put_beside, foot=foot, spacing_m=spacing)
-            join = doubting(walk.space, walk.gait, Request(moment, True, beside), [foot])
-            walk.roll_back.apply([join])
+            doubted = (foot,) if walk.doubted else ()
+            walk.roll_back.apply([Request(moment, True, beside)], doubted)
         found.append(walk.absences.joined(foot, now))
         walk.watch()
         walk.heading_changed()

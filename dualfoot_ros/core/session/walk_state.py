@@ -23,7 +23,6 @@ from ..samples.series import FloatArray
 from .absence import Absences
 from .heading import Headings, turn
 from .initial_state import InitialState
-from .lost_track import doubting
 from .standing import Stands
 
 
@@ -128,15 +127,25 @@ class WalkState:
         """Apply what a method asked for, and tell it and the caller what came of it."""
         if not requests:
             return []
-        requests = [doubting(self.space, self.gait, request) for request in requests]
-        done = self.roll_back.apply(requests)
+        if len(requests) > 1 and requests[0].roll_back:
+            requests = sorted(requests, key=lambda request: request.epoch)
+        outcomes = self.roll_back.apply(requests, self.doubted)
         found = []
-        for request, outcome in done:
+        for request, outcome in zip(requests, outcomes, strict=True):
             if outcome.reason is not Reason.DID_NOT_FIT:
                 method.note(outcome)
             self.carriage.constrained(outcome)
             found.append(self._event(foot, request, outcome))
         return found
+
+    @property
+    def doubted(self) -> Sequence[int]:
+        """The feet that may be elsewhere, where a constraint does not fit.
+
+        Where stamps are uneven, a misfit tells nothing: the covariance knows too little all the
+        time.
+        """
+        return () if self.gait.uneven else (0, 1)
 
     def _event(self, foot: str, request: Request, outcome: Outcome) -> Event:
         return Event(

@@ -4,6 +4,7 @@ Liu et al. 2023, sections III-D and IV-C; the exact solver of `core.constraints.
 """
 
 from ..closest import closest
+from ..epoch import rerun, restore
 from ..layout import (
     KNOW_NOTHING,
     M_DIRECTION,
@@ -11,9 +12,12 @@ from ..layout import (
     M_P,
     M_PUSH,
     M_R,
+    N_EPOCH,
     X_AFTER,
     X_BEFORE,
     X_DISTANCE,
+    X_EXCEEDS,
+    X_NIS,
     X_NOISE,
     X_NOW,
     X_S,
@@ -29,7 +33,7 @@ def constrain_distance(w, x, c0, std, solves, given, a, b, c):
     """Bring the separation to ``c0`` m, known to ``std`` m, if it is longer; return whether it is.
 
     The separation is that of now, or (a, b, c) m when it is ``given``.  The innovation is that of
-    the distance.  Nothing is done unless the entry ``solves``.
+    the distance, and so is its NIS, -1 for none.  Nothing is done unless the entry ``solves``.
     """
     separation(w, x, X_NOW)
     for i in range(3):
@@ -48,9 +52,24 @@ def constrain_distance(w, x, c0, std, solves, given, a, b, c):
     if exceeds and solves:
         project(w, x, c0, std)
     x[X_DISTANCE] = distance
+    s = variance + std * std
     x[X_Y] = error
-    x[X_S] = variance + std * std
+    x[X_S] = s
+    x[X_NIS] = error * error / s if s > 0.0 else -1.0
+    x[X_EXCEEDS] = 1.0 if exceeds else 0.0
     return exceeds
+
+
+def constrain_distance_back(w, n, x, first, gate, c0, std, solves, given, a, b, c):
+    """Do so in the state before epoch ``first``, and run again from there; return whether it fits.
+
+    It does not where its NIS is beyond ``gate``: then the state is of no use any more.
+    """
+    restore(w, n, first)
+    if constrain_distance(w, x, c0, std, solves, given, a, b, c) and x[X_NIS] > gate:
+        return False
+    rerun(w, n, first, n[N_EPOCH])
+    return True
 
 
 def quadratic(x):

@@ -207,17 +207,23 @@ class JointEstimate:
         result = getattr(self._engine, entry)(self._space.w, self._x, *given)
         return float(result), self._x.tolist()
 
-    def act_back(self, entry: str, first: int, gate: float, *given: float) -> list[float] | None:
-        """Go back to before epoch ``first``, run an ``entry`` as `act` does, and all since again.
+    def end_stance(
+        self,
+        rule: FloatArray,
+        learnt: FloatArray,
+        foot: int,
+        heading: float,
+        gate: float,
+        since: int,
+    ) -> tuple[int, list[float]]:
+        """Do what a ``rule`` says at the end of the stance of ``foot``, in the kernel.
 
-        Returns the array as `act` does, or None where the NIS a row is beyond ``gate``: then the
-        state is of no use any more.
+        Returns what was done, END_DONE or another, and the array as `act` does.
         """
-        space = self._space
-        fits = getattr(self._engine, entry + "_back")(
-            space.w, space.n, self._x, first, gate, *given
-        )
-        return self._x.tolist() if fits else None
+        w, n, x = self._space.w, self._space.n, self._x
+        ahead = math.cos(heading), math.sin(heading)
+        done = self._engine.end_stance(w, n, x, rule, learnt, foot, *ahead, gate, since)
+        return done, x.tolist() if done == lay.END_DONE else []
 
     def measured(self, rows: int) -> tuple[FloatArray, FloatArray]:
         """Return innovation (m,) and S (m, m) of the ``rows`` that `act` has updated with."""

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from .constraints.compiled_constraint import CompiledConstraint
 from .constraints.method import Request
 from .joint_estimate import JointEstimate, Outcome
 from .kernel import Engine, Workspace
 from .kernel import layout as lay
-from .misfit import MISFIT, apply_doubting
+from .misfit import apply_doubting
 
 ACTIONS = 16  # constraints kept before those that no roll-back can reach are dropped
 Feet = Sequence[int]
@@ -34,7 +32,7 @@ class RollBack:
     def __init__(self, space: Workspace) -> None:
         self._space = space
         self._actions: list[Action] = []
-        self._newest = -1  # epoch of the newest of them
+        self.newest = -1  # epoch of the newest of them
 
     def use(self, engine: Engine, estimate: JointEstimate) -> None:
         """Go on with another form of the kernel."""
@@ -43,7 +41,7 @@ class RollBack:
     def forget(self) -> None:
         """Forget what was applied: it cannot be applied again."""
         self._actions.clear()
-        self._newest = -1
+        self.newest = -1
 
     def clean_phases(self, bits: Sequence[int]) -> None:
         """Undo the zero velocity of a stance, or the swing within one, that was none.
@@ -91,12 +89,24 @@ class RollBack:
             outcomes = [self._outcome(action) for action in fresh]
         for action, outcome in zip(fresh, outcomes, strict=True):
             if outcome.accepted:
-                self._actions.append(action)
-                self._newest = max(self._newest, action.epoch)
-        if len(self._actions) > ACTIONS:
-            oldest = space.oldest  # asked once: some methods act at every epoch
-            self._actions = [action for action in self._actions if action.epoch >= oldest]
+                self._keep(action)
+        self._forget_old()
         return outcomes
+
+    def note(self, action: Action) -> None:
+        """Take note of what the kernel has applied by itself."""
+        self._keep(action)
+        self._forget_old()
+
+    def _keep(self, action: Action) -> None:
+        self._actions.append(action)
+        self.newest = max(self.newest, action.epoch)
+
+    def _forget_old(self) -> None:
+        """Forget what no roll-back can reach, now and then."""
+        if len(self._actions) > ACTIONS:
+            oldest = self._space.oldest
+            self._actions = [action for action in self._actions if action.epoch >= oldest]
 
     def _outcome(self, action: Action) -> Outcome:
         """Apply an action to the present state."""
@@ -110,10 +120,6 @@ class RollBack:
         Constraints already applied since are applied again, each at its own epoch; the ``fresh``
         ones, none earlier than ``first - 1``, join them.  Returns what came of the fresh ones.
         """
-        if len(fresh) == 1 and self._newest < first:  # nearly always
-            outcome = self._replay_compiled(first, fresh[0])
-            if outcome is not None:
-                return [outcome]
         space, engine = self._space, self._engine
         w, n = space.w, space.n
         engine.restore(w, n, first)
@@ -130,14 +136,3 @@ class RollBack:
                 outcomes.append(outcome)
         engine.rerun(w, n, first, space.epoch)
         return outcomes
-
-    def _replay_compiled(self, first: int, fresh: Action) -> Outcome | None:
-        """Do the same with one constraint, just before ``first``, if the kernel can do it at once.
-
-        None where it cannot, or the constraint does not fit; then nothing is changed that going
-        back does not mend.
-        """
-        if not isinstance(fresh.apply, CompiledConstraint):
-            return None
-        gate = MISFIT if fresh.doubted else math.inf
-        return fresh.apply.go_back(self._estimate, first, gate)

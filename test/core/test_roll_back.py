@@ -16,8 +16,8 @@ from dualfoot_ros.core.constraints.method import Request
 from dualfoot_ros.core.joint_estimate import Outcome
 from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.results.payloads import Reason
-from dualfoot_ros.core.roll_back import RollBack
 from dualfoot_ros.core.session import notices
+from dualfoot_ros.core.session.walk_state import WalkState
 
 from .harness import Pairs, follow, open_session, quick_engine, standing_samples, state_bits, walk
 
@@ -38,7 +38,7 @@ class Late(Idc):
         moment = gait.now - 1 - self._back[len(self.asked) % len(self._back)]
         if not gait.remembers(moment):
             return ()
-        self.asked.append(Request(moment, True, self.constraint()))
+        self.asked.append(Request(moment, True, self.apply))
         return (self.asked[-1],)
 
 
@@ -80,15 +80,15 @@ def test_a_constraint_at_an_earlier_moment_equals_having_applied_it_then(back, s
         due[epoch] = due.get(epoch, 0) + 1
     for epoch, _ in follow(again, pairs, start):
         for _ in range(due.get(epoch, 0)):
-            again._walk.roll_back.apply([Request(epoch, False, method.constraint())], (0, 1))
+            again._walk.roll_back.apply([Request(epoch, False, method.apply)], (0, 1))
     assert state_bits(again.space.w) == state_bits(session.space.w)
 
 
 class Refusing(Late):
     """Rolls back each time, and then finds nothing to apply."""
 
-    def constraint(self, *_):
-        return lambda estimate: Outcome(np.zeros(1), np.ones((1, 1)), 0.0, accepted=False)
+    def apply(self, estimate, target=None, heading=0.0, separation=None):
+        return Outcome(np.zeros(1), np.ones((1, 1)), 0.0, accepted=False)
 
 
 def test_a_refused_constraint_leaves_the_state_as_it_was_to_the_bit():
@@ -209,7 +209,7 @@ def test_what_the_kernel_does_at_once_is_what_is_done_step_by_step(method, std, 
         return state_bits(session.space.w), events
 
     bits, events = followed()
-    monkeypatch.setattr(RollBack, "_replay_compiled", lambda *_: None)
+    monkeypatch.setattr(WalkState, "end_in_kernel", lambda *_: None)
     again, expected = followed()
     constraints = [event for event in events if event.kind is EventKind.CONSTRAINT]
     assert len(constraints) > 10

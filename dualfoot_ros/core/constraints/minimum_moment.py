@@ -7,7 +7,7 @@ at t_min = (1 - kappa) t_fst + kappa t_end, eq. (31).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -17,10 +17,10 @@ from ..joint_estimate import JointEstimate, Outcome
 from ..kernel import layout as lay
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit, Passing, Reason
-from .compiled_constraint import CompiledConstraint
+from .at_passing import AtPassing
 from .distance_solvers import Matrix, Vector, norm
 from .learnt_spacing import Spacing
-from .method import Gait, Method, Request, StancePhase
+from .method import Gait, Request, StancePhase
 
 
 @dataclass(frozen=True)
@@ -54,11 +54,10 @@ class MomentConfig(Parameters):
     )
 
 
-class AtMinimumDistance(Method):
+class AtMinimumDistance(AtPassing):
     """Asks for one constraint at the minimum-distance moment of every stance of a walk."""
 
     config: MomentConfig
-    spacing: Spacing
 
     def __init__(self, config: MomentConfig) -> None:
         """Use ``config``."""
@@ -72,19 +71,12 @@ class AtMinimumDistance(Method):
         if moment is None:
             return ()
         target = self.spacing.value_m
+        constrain = partial(self.apply, target=target, heading=stance.heading)
         left, right = gait.positions_after(moment).tolist()
         separation = [a - b for a, b in zip(left, right, strict=True)]
         if self.config.apply_at == "moment" and norm(separation) > target:
-            return (Request(moment, True, self.constraint(target, stance.heading)),)
-        return (Request(moment, False, self.constraint(target, stance.heading, separation)),)
-
-    def note(self, outcome: Outcome) -> None:
-        """Learn the spacing, if it was not given."""
-        self.spacing.note(outcome)
-
-    def moved(self, up_m: float, turned: float) -> None:
-        """Learn the placement anew."""
-        self.spacing.moved()
+            return (Request(moment, True, constrain),)
+        return (Request(moment, False, partial(constrain, separation=separation)),)
 
     def moment(self, stance: StancePhase, gait: Gait) -> int | None:
         """Return the epoch of the minimum distance, None when the stance is no step."""
@@ -93,35 +85,52 @@ class AtMinimumDistance(Method):
             return None
         return None if gait.in_stance(1 - stance.foot, moment) else moment
 
-    def constraint(
+    def apply(
         self,
+        estimate: JointEstimate,
         target: float | None = None,
         heading: float = 0.0,
         separation: Vector | None = None,
-    ) -> Callable[[JointEstimate], Outcome]:
-        """Return what brings the distance to ``target`` m (as given or learnt) if it exceeds it.
+    ) -> Outcome:
+        """Constrain the distance to ``target`` m (as given or learnt) if it exceeds it.
 
         ``separation`` is r at the moment, when the constraint is applied later; ``heading`` (rad)
         goes into the outcome.
         """
         target = self.spacing.value_m if target is None else target
-        if not self.is_exact:
-            return partial(self.apply, target=target, heading=heading, separation=separation)
-        given = distance_given(target, self.config.distance_std, separation, solves=True)
-        outcome = partial(distance_outcome, target=target, heading=heading)
-        return CompiledConstraint("constrain_distance", given, outcome)
-
-    def apply(
-        self, estimate: JointEstimate, target: float, heading: float, separation: Vector | None
-    ) -> Outcome:
-        """Look at the distance, and `correct` it where it exceeds ``target`` m."""
-        given = distance_given(target, self.config.distance_std, separation, solves=False)
-        exceeds, found = estimate.act("constrain_distance", *given)
-        if exceeds:
+        given = (0.0, 0.0, 0.0) if separation is None else separation
+        exceeds, found = estimate.act(
+            "constrain_distance",
+            target,
+            self.config.distance_std,
+            self.is_exact,
+            separation is not None,
+            *given,
+        )
+        if exceeds and not self.is_exact:
             r = found[lay.X_BEFORE : lay.X_NOW]
             self.correct(estimate, r, covariance_of(found), target)
-            found[lay.X_AFTER : lay.X_DISTANCE] = estimate.relative_position()
-        return distance_outcome(estimate, found, target, heading)
+            distance, moved = estimate.act("distance_after")
+            found[lay.X_AFTER : lay.X_DISTANCE] = moved[lay.X_AFTER : lay.X_DISTANCE]
+            found[lay.X_DISTANCE_AFTER] = distance
+        return self.outcome(estimate, found, target, heading)
+
+    def outcome(
+        self, estimate: JointEstimate, found: list[float], target: float, heading: float
+    ) -> Outcome:
+        """Return what came of a constraint, of what the kernel has ``found``."""
+        r, error = found[lay.X_BEFORE : lay.X_NOW], found[lay.X_Y]
+        after, distance_after, reason = r, None, None
+        exceeds = found[lay.X_EXCEEDS] != 0.0
+        if exceeds:
+            after = found[lay.X_AFTER : lay.X_DISTANCE]
+            distance_after = found[lay.X_DISTANCE_AFTER]
+        else:
+            reason = Reason.DISTANCE_WITHIN_C0 if error <= 0.0 else Reason.NO_UNCERTAINTY
+        limit = DistanceLimit(found[lay.X_DISTANCE], target, distance_after)
+        passing = Passing(limit, heading, r, after)
+        S = np.array([[found[lay.X_S]]])
+        return Outcome(np.array([error]), S, nis_of(found), exceeds, passing, reason)
 
     @property
     def is_exact(self) -> bool:
@@ -131,36 +140,6 @@ class AtMinimumDistance(Method):
     def correct(self, estimate: JointEstimate, r: Vector, p: Matrix, target: float) -> None:
         """Bring ``estimate`` to ``target`` m; ``r`` (3,) is the separation, ``p`` its (3, 3)."""
         raise AssertionError(f"{type(self).__name__} says what a constraint does")
-
-
-def distance_given(
-    target: float, std: float, separation: Vector | None = None, *, solves: bool
-) -> tuple[float, ...]:
-    """Return what the kernel is given to bring the feet to ``target`` m, known to ``std`` m.
-
-    ``separation`` (3,) m is left minus right position, where it is not that of now; unless the
-    kernel ``solves`` the state stays as it is.
-    """
-    given = (0.0, 0.0, 0.0) if separation is None else separation
-    return (target, std, solves, separation is not None, *given)
-
-
-def distance_outcome(
-    _: JointEstimate, found: list[float], target: float, heading: float
-) -> Outcome:
-    """Return what came of a constraint to ``target`` m, of what the kernel has ``found``."""
-    r, error, s = found[lay.X_BEFORE : lay.X_NOW], found[lay.X_Y], found[lay.X_S]
-    after, distance_after, reason = r, None, None
-    exceeds = found[lay.X_EXCEEDS] != 0.0
-    if exceeds:
-        now, then = found[lay.X_NOW : lay.X_AFTER], found[lay.X_AFTER : lay.X_DISTANCE]
-        after = [x + (b - a) for x, a, b in zip(r, now, then, strict=True)]
-        distance_after = norm(then)
-    else:
-        reason = Reason.DISTANCE_WITHIN_C0 if error <= 0.0 else Reason.NO_UNCERTAINTY
-    limit = DistanceLimit(found[lay.X_DISTANCE], target, distance_after)
-    passing = Passing(limit, heading, r, after)
-    return Outcome(np.array([error]), np.array([[s]]), nis_of(found), exceeds, passing, reason)
 
 
 def nis_of(found: Sequence[float]) -> float:

@@ -34,6 +34,7 @@ from .at_stances import (
     separation,
     spacing_constraint,
     spacing_learner,
+    stance_end,
 )
 
 MODULES = (
@@ -56,6 +57,7 @@ MODULES = (
     distance_constraint,
     spacing_learner,
     landing,
+    stance_end,
 )
 ENTRIES = (
     "advance",
@@ -72,9 +74,9 @@ ENTRIES = (
     "observe",
     "constrain_spacing",
     "constrain_distance",
-    "constrain_spacing_back",
-    "constrain_distance_back",
+    "distance_after",
     "learn_spacing",
+    "end_stance",
     "landing",
 )
 
@@ -98,9 +100,9 @@ class Engine:
     observe: Callable[..., Any]
     constrain_spacing: Callable[..., Any]
     constrain_distance: Callable[..., Any]
-    constrain_spacing_back: Callable[..., Any]
-    constrain_distance_back: Callable[..., Any]
+    distance_after: Callable[..., Any]
     learn_spacing: Callable[..., Any]
+    end_stance: Callable[..., Any]
     landing: Callable[..., Any]
 
 

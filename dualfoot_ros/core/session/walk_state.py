@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from ..carried import Carriage
 from ..config import TrackerConfig
 from ..constraints import METHODS, Method, Request
+from ..constraints.at_passing import AtPassing
 from ..gait_history import GaitHistory
 from ..joint_estimate import JointEstimate, Outcome
 from ..kernel import Engine, Workspace
 from ..kernel import layout as lay
-from ..results.events import Event
+from ..misfit import MISFIT
+from ..results.events import FEET, Event
 from ..results.facing import Facing
 from ..results.payloads import Reason
-from ..roll_back import RollBack
+from ..roll_back import Action, RollBack
 from ..samples.increments import Increments
 from ..samples.series import FloatArray
 from .absence import Absences
@@ -137,6 +140,33 @@ class WalkState:
             self.carriage.constrained(outcome)
             found.append(self._event(foot, request, outcome))
         return found
+
+    def end_in_kernel(self, foot: int) -> list[Event] | None:
+        """Let the kernel do what the method would ask for at the end of the stance of ``foot``.
+
+        None where it is to be asked.
+        """
+        method = self.method
+        if not isinstance(method, AtPassing) or method.rule is None or self.aids:
+            return None
+        if not self.coupled:
+            return None
+        heading, doubted, roll_back = self.headings.mean, self.doubted, self.roll_back
+        done, found = self.estimate.end_stance(
+            method.rule,
+            method.spacing.numbers,
+            foot,
+            heading,
+            MISFIT if doubted else math.inf,
+            roll_back.newest,
+        )
+        if done != lay.END_DONE:
+            return None if done == lay.END_ASK else []
+        moment, target = self.space.n.item(lay.N_MOMENT), found[lay.X_TARGET]
+        outcome = method.outcome(self.estimate, found, target, heading)
+        apply = partial(method.apply, target=target, heading=heading)
+        roll_back.note(Action(moment, apply, doubted))
+        return [self._event(FEET[foot], Request(moment, True, apply), outcome)]
 
     @property
     def doubted(self) -> Sequence[int]:

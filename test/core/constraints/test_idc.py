@@ -45,7 +45,7 @@ def constrained(space, c0: float, **options):
     """Apply the method; return (outcome, separation after, error taken off (30,))."""
     before = space.w.copy()
     estimate = JointEstimate(space, interpreted())
-    outcome = method(c0, **options).constraint()(estimate)
+    outcome = method(c0, **options).apply(estimate)
     taken = [error_between(nominal(before, f), nominal(space.w, f)) for f in range(2)]
     return outcome, np.array(estimate.relative_position()), np.concatenate(taken)
 

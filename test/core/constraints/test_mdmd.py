@@ -146,7 +146,7 @@ def test_with_little_uncertainty_the_update_is_that_of_the_ekf(method_class, see
         space, estimate = apart(seed, 0.5)
         set_covariance(space, space.covariance() * 1e-6)
         before, P = states(space), space.covariance()
-        each(each.config_class(distance=0.4999, distance_std=1e-4)).constraint()(estimate)
+        each(each.config_class(distance=0.4999, distance_std=1e-4)).apply(estimate)
         found.append((error_taken(before, space), space.covariance()))
     stds = np.sqrt(np.diag(P))
     assert np.abs((found[0][0] - found[1][0]) / stds).max() < 5e-3
@@ -161,12 +161,12 @@ def test_a_covariance_that_is_singular_after_a_hard_projection_stays_one(
 ):
     space, estimate = apart(seed, 0.6)
     hard = Idc(IdcConfig(distance=0.3, distance_std=0.0))
-    assert hard.constraint()(estimate).accepted
+    assert hard.apply(estimate).accepted
     unit = np.random.default_rng(direction).normal(size=3)
     set_separation(space, 0.5 * unit / np.linalg.norm(unit))
-    outcome = method_class(
-        method_class.config_class(distance=0.15, distance_std=0.0)
-    ).constraint()(estimate)
+    outcome = method_class(method_class.config_class(distance=0.15, distance_std=0.0)).apply(
+        estimate
+    )
     P = space.covariance()
     assert np.isfinite(space.w[:60]).all()
     assert_covariance(P)
@@ -179,8 +179,9 @@ def test_a_covariance_that_is_singular_after_a_hard_projection_stays_one(
 def test_many_constraints_on_end_never_make_a_variance_negative(method_class, seed, times):
     space, estimate = apart(seed, 0.8)
     for k in range(times):
-        method = method_class(method_class.config_class(distance=0.5 / (k + 1), distance_std=0.0))
-        method.constraint()(estimate)
+        method_class(method_class.config_class(distance=0.5 / (k + 1), distance_std=0.0)).apply(
+            estimate
+        )
         assert_covariance(space.covariance())
 
 
@@ -189,7 +190,7 @@ def test_the_covariance_loses_what_the_gain_says(method_class):
     space, estimate = apart(8, 0.5)
     P, r = space.covariance(), separation(estimate)
     _, variance, cross = moments(method_class, r, P)
-    method_class(method_class.config_class(distance=0.15, distance_std=0.1)).constraint()(estimate)
+    method_class(method_class.config_class(distance=0.15, distance_std=0.1)).apply(estimate)
     expected = P - np.outer(cross, cross) / (variance + 0.01)
     assert_same_covariance(space.covariance(), expected, P)
 

@@ -32,7 +32,7 @@ def method(distance: float, **options) -> MdmdEkf:
 def test_it_is_the_dense_update_with_the_gradient_of_the_distance(seed, distance, std):
     space, estimate = apart(seed, distance)
     before, P, r = states(space), space.covariance(), separation(estimate)
-    outcome = method(0.15, distance_std=std).constraint()(estimate)
+    outcome = method(0.15, distance_std=std).apply(estimate)
     step = 1e-6
     gradient = [
         (np.linalg.norm(r + step * e) - np.linalg.norm(r - step * e)) / (2.0 * step)
@@ -52,7 +52,7 @@ def test_one_linearisation_of_a_hard_constraint_is_the_first_iterate_of_the_pape
         space, estimate = apart(11, 0.6)
         before = states(space)
         config = method_class.config_class(distance=0.59, distance_std=0.0, **options)
-        method_class(config).constraint()(estimate)
+        method_class(config).apply(estimate)
         found.append((error_taken(before, space), np.linalg.norm(separation(estimate))))
     # their linearised right-hand sides differ by (|r| - c0)^2 / (2 |r|)
     assert np.abs(found[0][0] - found[1][0]).max() < 0.02 * np.abs(found[0][0]).max()
@@ -64,5 +64,5 @@ def test_a_hard_observation_is_met_when_the_separation_alone_is_uncertain_along_
     u = separation(estimate) / 0.5
     for other in np.linalg.svd(u[None])[2][1:]:
         estimate.update([dict(enumerate(other)) | dict(enumerate(-other, 15))], [0.0], [0.0])
-    method(0.15, distance_std=0.0).constraint()(estimate)
+    method(0.15, distance_std=0.0).apply(estimate)
     assert np.linalg.norm(separation(estimate)) == pytest.approx(0.15, abs=1e-9)

@@ -84,7 +84,7 @@ def test_feet_that_are_near_enough_need_no_roll_back():
 def test_the_distance_is_a_pseudo_observation_along_the_separation(seed):
     space, estimate = apart(seed, 0.5)
     before, P, r = states(space), space.covariance(), separation(estimate)
-    method(distance=0.15, distance_std=0.1).constraint()(estimate)
+    method(distance=0.15, distance_std=0.1).apply(estimate)
     u = r / np.linalg.norm(r)
     H = np.concatenate([u, np.zeros(12), -u, np.zeros(12)])
     assert_dense_update(before, P, space, H, 0.01, 0.35)

@@ -76,7 +76,7 @@ def test_no_constraint_while_both_feet_stand_or_in_a_long_stance():
 def test_only_a_distance_that_exceeds_c0_is_constrained():
     space, estimate = apart(5, 0.6)
     set_separation(space, [0.0, 0.149, 0.0])
-    outcome = method().constraint()(estimate)
+    outcome = method().apply(estimate)
     assert not outcome.accepted and outcome.detail["reason"] == "distance within c0"
     assert np.allclose(separation(estimate), [0.0, 0.149, 0.0])
 

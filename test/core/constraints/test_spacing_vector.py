@@ -38,7 +38,7 @@ def method(**options) -> SpacingVector:
 @settings(max_examples=40, deadline=None)
 def test_the_right_foot_comes_out_2a_to_the_right_whatever_the_heading(seed, heading, spacing):
     space, estimate = apart(seed, 0.5)
-    method(spacing=spacing, spacing_std=0.0).constraint(heading)(estimate)
+    method(spacing=spacing, spacing_std=0.0).apply(estimate, heading)
     to_right = -separation(estimate)[:2]
     forward = np.array([math.cos(heading), math.sin(heading)])
     assert forward[0] * to_right[1] - forward[1] * to_right[0] < 0.0  # clockwise of forward
@@ -52,7 +52,7 @@ def test_the_right_foot_comes_out_2a_to_the_right_whatever_the_heading(seed, hea
 def test_equation_9_is_met_to_a_nanometre_by_the_hard_projection(seed, heading, spacing):
     """D x = d with D = [I -I], right minus left; the paper's x is right and its y forward."""
     _, estimate = apart(seed, 0.5)
-    method(spacing=spacing, spacing_std=0.0).constraint(heading)(estimate)
+    method(spacing=spacing, spacing_std=0.0).apply(estimate, heading)
     psi_L = psi_R = heading
     up, ahead = math.sin(psi_R) + math.sin(psi_L), math.cos(psi_R) + math.cos(psi_L)
     right_of_paper = spacing * np.array([ahead, up]) / math.hypot(ahead, up)  # eq. (8)
@@ -75,7 +75,7 @@ def test_height_is_not_observed(seed, heading):
     P[2, [i for i in range(30) if i != 2]] = P[[i for i in range(30) if i != 2], 2] = 0.0
     set_covariance(space, P)
     height = estimate.position(0)[2]
-    method(spacing=0.2).constraint(heading)(estimate)
+    method(spacing=0.2).apply(estimate, heading)
     assert estimate.position(0)[2] == pytest.approx(height, abs=1e-12)
 
 
@@ -84,7 +84,7 @@ def test_height_is_not_observed(seed, heading):
 def test_the_difference_in_height_is_one_row_more(seed, heading, std, height_std):
     space, estimate = apart(seed, 0.5)
     before, P, r = states(space), space.covariance(), separation(estimate)
-    method(spacing=0.2, spacing_std=std, height_std=height_std).constraint(heading)(estimate)
+    method(spacing=0.2, spacing_std=std, height_std=height_std).apply(estimate, heading)
     H = np.zeros((3, 30))
     H[:, 0:3], H[:, 15:18] = np.eye(3), -np.eye(3)
     y = r - 0.2 * np.array([-math.sin(heading), math.cos(heading), 0.0])
@@ -104,9 +104,7 @@ def test_a_correction_of_the_difference_does_not_move_the_pair(seed, heading):
         return (1.0 - a) * estimate.position(0) + a * estimate.position(1)
 
     before = middle()
-    method(spacing=0.2, heading_correction="difference", height_std=0.15).constraint(heading)(
-        estimate
-    )
+    method(spacing=0.2, heading_correction="difference", height_std=0.15).apply(estimate, heading)
     assert np.allclose(middle(), before, atol=1e-9)
     assert_covariance(space.covariance())
 
@@ -116,7 +114,7 @@ def test_a_correction_of_the_difference_does_not_move_the_pair(seed, heading):
 def test_it_is_the_dense_update_with_two_rows(seed, heading, std):
     space, estimate = apart(seed, 0.5)
     before, P, r = states(space), space.covariance(), separation(estimate)
-    outcome = method(spacing=0.2, spacing_std=std).constraint(heading)(estimate)
+    outcome = method(spacing=0.2, spacing_std=std).apply(estimate, heading)
     H = np.zeros((2, 30))
     H[:, 0:2], H[:, 15:17] = np.eye(2), -np.eye(2)
     y = r[:2] - 0.2 * np.array([-math.sin(heading), math.cos(heading)])
@@ -131,7 +129,7 @@ def test_the_lateral_variant_is_the_dense_update_with_the_row_across_the_heading
 ):
     space, estimate = apart(seed, 0.5)
     before, P, r = states(space), space.covariance(), separation(estimate)
-    method(spacing=0.2, spacing_std=std, variant="lateral").constraint(heading)(estimate)
+    method(spacing=0.2, spacing_std=std, variant="lateral").apply(estimate, heading)
     left = np.array([-math.sin(heading), math.cos(heading), 0.0])
     H = np.concatenate([left, np.zeros(12), -left, np.zeros(12)])
     assert_dense_update(before, P, space, H, std**2, float(r @ left) - 0.2)
@@ -145,7 +143,7 @@ def test_the_lateral_variant_leaves_the_separation_along_the_way_alone(seed, hea
     set_covariance(space, np.diag(np.tile(np.repeat([0.04, 0.01, 1e-4, 1e-6, 1e-3], 3), 2)))
     forward = np.array([math.cos(heading), math.sin(heading), 0.0])
     along = float(separation(estimate) @ forward)
-    method(spacing=0.2, spacing_std=0.0, variant="lateral").constraint(heading)(estimate)
+    method(spacing=0.2, spacing_std=0.0, variant="lateral").apply(estimate, heading)
     r = separation(estimate)
     assert float(r @ forward) == pytest.approx(along, abs=1e-12)
     assert float(r @ [-forward[1], forward[0], 0.0]) == pytest.approx(0.2, abs=1e-9)
@@ -182,7 +180,7 @@ def test_other_rows_after_a_retune_are_those_of_the_outcome_and_of_its_dimension
 ):
     changed = method(spacing=0.2)
     changed.retune(method(spacing=0.2, variant=variant, height_std=height_std).config)
-    outcome = changed.constraint(0.4)(apart(3, 0.5)[1])
+    outcome = changed.apply(apart(3, 0.5)[1], 0.4)
     rows = {"vector": 3, "lateral": 1}[variant]
     assert changed.dimensions == len(outcome.innovation) == len(outcome.S) == rows
     assert (np.diag(outcome.S) > 0.0).all()

@@ -4,7 +4,6 @@ Liu et al. 2023, sections III-D and IV-C; the exact solver of `core.constraints.
 """
 
 from ..closest import closest
-from ..epoch import rerun, restore
 from ..layout import (
     KNOW_NOTHING,
     M_DIRECTION,
@@ -12,10 +11,10 @@ from ..layout import (
     M_P,
     M_PUSH,
     M_R,
-    N_EPOCH,
     X_AFTER,
     X_BEFORE,
     X_DISTANCE,
+    X_DISTANCE_AFTER,
     X_EXCEEDS,
     X_NIS,
     X_NOISE,
@@ -60,18 +59,6 @@ def constrain_distance(w, x, c0, std, solves, given, a, b, c):
     return exceeds
 
 
-def constrain_distance_back(w, n, x, first, gate, c0, std, solves, given, a, b, c):
-    """Do so in the state before epoch ``first``, and run again from there; return whether it fits.
-
-    It does not where its NIS is beyond ``gate``: then the state is of no use any more.
-    """
-    restore(w, n, first)
-    if constrain_distance(w, x, c0, std, solves, given, a, b, c) and x[X_NIS] > gate:
-        return False
-    rerun(w, n, first, n[N_EPOCH])
-    return True
-
-
 def quadratic(x):
     """Return r' P r of what is at M_R and M_P."""
     total = 0.0
@@ -88,4 +75,12 @@ def project(w, x, c0, std):
     x[X_Y] = x[M_PUSH]
     x[X_NOISE] = x[M_NOISE]
     observe(w, x, 1, KNOW_NOTHING)
-    separation(w, x, X_AFTER)
+    distance_after(w, x)
+
+
+def distance_after(w, x):
+    """Write what the separation has become, at its moment and now; return the distance now, m."""
+    x[X_DISTANCE_AFTER] = separation(w, x, X_AFTER)
+    for i in range(3):
+        x[X_AFTER + i] = x[X_BEFORE + i] + (x[X_AFTER + i] - x[X_NOW + i])
+    return x[X_DISTANCE_AFTER]

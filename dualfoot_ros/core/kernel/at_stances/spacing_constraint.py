@@ -3,12 +3,10 @@
 Ma and Särkkä 2023, III-C, eqs (5)-(9), as `core.constraints.spacing_vector` has it.
 """
 
-from ..epoch import rerun, restore
 from ..layout import (
     E_ATT,
     JOINT,
     KNOW_NOTHING,
-    N_EPOCH,
     S_H,
     SIDE,
     X_AFTER,
@@ -68,22 +66,6 @@ def constrain_spacing(w, x, ahead_x, ahead_y, spacing, std, height_std, lateral,
     separation(w, x, X_AFTER)
     x[X_NIS] = nis
     return nis
-
-
-def constrain_spacing_back(
-    w, n, x, first, gate, ahead_x, ahead_y, spacing, std, height_std, lateral, kind
-):
-    """Do so in the state before epoch ``first``, and run again from there; return whether it fits.
-
-    It does not where its NIS a row is beyond ``gate``: then the state is of no use any more.
-    """
-    restore(w, n, first)
-    nis = constrain_spacing(w, x, ahead_x, ahead_y, spacing, std, height_std, lateral, kind)
-    rows = (1 if lateral else 2) + (1 if height_std > 0.0 else 0)
-    if nis > gate * rows:
-        return False
-    rerun(w, n, first, n[N_EPOCH])
-    return True
 
 
 def measure(x, k, innovation, noise):

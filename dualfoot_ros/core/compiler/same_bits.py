@@ -48,9 +48,7 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     for kind in (None, lay.KNOW_ALL, lay.KNOW_COMMON, lay.KEEP_PLACE, lay.KNOW_NOTHING):
         yield _updated(functions, w, kind)
     yield from _constrained(functions, w)
-    x = np.zeros(lay.X_SIZE)
-    nis = functions["landing"](w, n, x, 1, 0.06)
-    yield np.append(x, nis).tobytes()
+    yield from _ended(functions, w, n)
     for foot in range(2):
         functions["turn"](w, 0, foot, 0.6, 0.8, np.array([0.3, 0.7]), np.array([1.0, 2.0, 0.1]))
     yield w.tobytes()
@@ -106,6 +104,29 @@ def _constrained(functions: Calls, w: FloatArray) -> Iterator[bytes]:
     for _ in range(2):
         functions["learn_spacing"](learnt, 0.3, 0.2, 0.1, 0.15, 0.6, 0.8)
     yield learnt.tobytes()
+
+
+def _ended(functions: Calls, w: FloatArray, n: IntArray) -> Iterator[bytes]:
+    """Yield what is found of a landing, and what every rule makes of the end of its stance."""
+    functions["set_flags"](n, 0, 10, 20, 0)
+    right = lay.N_FOOT + lay.N_STRIDE
+    n[right + lay.N_START], n[right + lay.N_LEAVE] = 12, 19
+    x, learnt = np.zeros(lay.X_SIZE), np.zeros(lay.L_SIZE)
+    nis = functions["landing"](w, n, x, 1, 0.06)
+    yield np.append(x, nis).tobytes()
+    learnt[lay.L_STATE], learnt[lay.L_COVARIANCE] = 0.01, 0.01
+    for kind, gate, since in (
+        (lay.R_SPACING, 1e9, 0),
+        (lay.R_DISTANCE, 1e9, 0),
+        (lay.R_SPACING, 1e-9, 0),
+        (lay.R_DISTANCE, 1e-9, 0),
+        (lay.R_SPACING, 1e9, 20),
+    ):
+        rule = np.array([kind, 0.5, 1.0, 0.08, 0.15, 0.0, lay.KNOW_COMMON, 3.0, 1.0])
+        done = functions["end_stance"](w, n, x, rule, learnt, 1, 0.6, 0.8, gate, since)
+        distance = functions["distance_after"](w, x)
+        yield np.append(x, (done, distance)).tobytes() + learnt.tobytes()
+        yield w.tobytes() + n.tobytes()
 
 
 def _numbers() -> tuple[FloatArray, IntArray]:

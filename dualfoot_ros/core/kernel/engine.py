@@ -35,6 +35,7 @@ from .at_stances import (
     separation,
     spacing_constraint,
     spacing_learner,
+    stance_end,
 )
 from .outputs import kept_row, output_row
 from .schmidt import considered_states, considered_update, known_states
@@ -63,6 +64,7 @@ MODULES = (
     distance_constraint,
     spacing_learner,
     landing,
+    stance_end,
 )
 ENTRIES = (
     "advance",
@@ -81,7 +83,9 @@ ENTRIES = (
     "observe",
     "constrain_spacing",
     "constrain_distance",
+    "distance_after",
     "learn_spacing",
+    "end_stance",
     "landing",
 )
 
@@ -107,7 +111,9 @@ class Engine:
     observe: Callable[..., Any]
     constrain_spacing: Callable[..., Any]
     constrain_distance: Callable[..., Any]
+    distance_after: Callable[..., Any]
     learn_spacing: Callable[..., Any]
+    end_stance: Callable[..., Any]
     landing: Callable[..., Any]
 
 

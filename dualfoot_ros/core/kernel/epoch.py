@@ -10,6 +10,7 @@ from .covariance import correlated, propagate_foot
 from .detector import detect
 from .floor import carry, floor_moves, watch_floor
 from .layout import (
+    C_PERIOD,
     C_WATCH,
     FLAG_STILL,
     FOOT,
@@ -20,6 +21,7 @@ from .layout import (
     N_OLDEST,
     N_PAIRS,
     N_RING,
+    N_UNEVEN,
     NOT_TAKEN,
     NOTICE_FLOOR,
     NOTICE_SHIFT,
@@ -52,6 +54,7 @@ from .outputs.output_row import (
 from .strapdown import mechanize, orthonormalise
 from .zero_velocity import zupt
 
+NEARLY_EVEN_S = 0.7e-3  # by which an interval that is nearly the nominal one may differ from it
 ORTHONORMAL_EVERY = 32768  # epochs, over which rounding turns an attitude by 1e-13
 
 
@@ -156,6 +159,8 @@ def begin(w, n, ring_stamps, stamp, dt):
         n[N_OLDEST] = epoch - ring + 1
     i = epoch % ring
     ring_stamps[i] = stamp
+    if abs(dt - w[C_PERIOD]) > NEARLY_EVEN_S:
+        n[N_UNEVEN] = epoch
     o = RINGS + SAMPLE * i
     w[o] = dt
     return o

@@ -65,7 +65,8 @@ C_ZUPT_CONSIDERS = C_GRAVITY + 13  # 1 when a zero-velocity update takes heading
 C_HEIGHT_DRIFT = (
     C_GRAVITY + 16
 )  # (m/s)^2, vertical velocity that zero-velocity updates let through
-C_FOOT = C_GRAVITY + 17  # then per foot:
+C_PERIOD = C_GRAVITY + 17  # nominal interval of the samples, s
+C_FOOT = C_GRAVITY + 18  # then per foot:
 C_STRIDE = 8
 C_LEVER = 0  # sensor to pivot of the foot, body frame, m
 C_STILL_RATE = 3  # standstill angular rate, rad/s
@@ -154,7 +155,25 @@ X_NOW = X_BEFORE + 3  # what it is at the time of the constraint
 X_AFTER = X_NOW + 3  # the same with the constraint
 X_DISTANCE, X_LATERAL = X_AFTER + 3, X_AFTER + 4  # of X_BEFORE: length, component to the left, m
 X_VELOCITY = X_LATERAL + 1  # of a landing (3,) m/s
-X_SIZE = X_VELOCITY + 3
+X_NIS = X_VELOCITY + 3  # of the constraint
+X_EXCEEDS = X_NIS + 1  # 1 where the distance exceeds what it is brought to
+X_DISTANCE_AFTER = X_NIS + 2  # length at the time of the constraint, with it, m
+X_TARGET = X_NIS + 3  # distance or spacing it has been brought to, m
+X_SIZE = X_TARGET + 1
+
+# --- what to do at the end of a stance, where that is no question for Python ---------------------
+R_KIND = 0  # one of:
+R_SPACING, R_DISTANCE = 1.0, 2.0  # the entry constrain_spacing, or constrain_distance
+R_SHARE = 1  # of the stance, where the moment of the constraint is
+R_LONGEST_S = 2  # s, of a stance that is a step
+R_STD = 3  # m, scatter of the spacing or of the distance
+R_HEIGHT_STD = 4  # m, as constrain_spacing takes it, and the next two
+R_LATERAL = 5
+R_LEFT_ALONE = 6
+R_ROWS = 7  # rows of the measurement
+R_LEARNS = 8  # 1 where the spacing is learnt
+R_SIZE = 9
+END_NO_STEP, END_DONE, END_ASK = 0, 1, 2  # what was done; or it is a question for Python
 
 # --- the array of the spacing that is learnt, a filter of its own --------------------------------
 L_STATE = 0  # spacing, placement (2,), advance a passing, m
@@ -184,7 +203,9 @@ N_SETTLED = 11  # samples without a turn after which a foot has come to rest on 
 N_STANDS = 12  # samples after which a stance is one of a stop
 N_LONGEST = 13  # ns between two samples above which some are missing between them
 N_PAIRS = 14  # pairs that `take_pair` has taken since their number was asked for
-N_FOOT = 16  # then per foot:
+N_UNEVEN = 15  # newest epoch whose interval was not nearly the nominal one, -1 for none
+N_MOMENT = 16  # epoch of the constraint at the newest end of a stance
+N_FOOT = 17  # then per foot:
 N_STRIDE = 8
 N_PHASE = 0  # one of the phases below
 N_START = 1  # first epoch of the (candidate) stance

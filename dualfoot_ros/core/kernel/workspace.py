@@ -27,7 +27,8 @@ class Workspace:
         self.n = np.zeros(lay.integer_size(self.ring), dtype=np.int64)
         self.stamps = np.zeros(self.ring, dtype=np.int64)
         self.n[lay.N_RING] = self.ring
-        self.n[lay.N_EPOCH] = -1
+        self.n[lay.N_EPOCH] = self.n[lay.N_UNEVEN] = -1
+        self.w[lay.C_PERIOD] = 1.0 / rate_hz
 
     @property
     def epoch(self) -> int:

@@ -26,6 +26,8 @@ from dualfoot_ros.core.alignment import Alignment
 from dualfoot_ros.core.compiler import compiled
 from dualfoot_ros.core.kernel import Workspace
 from dualfoot_ros.core.kernel import layout as lay
+from dualfoot_ros.core.results.row_store import RowStore
+from dualfoot_ros.core.samples.pair_series import PairSeries
 from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.core.session import Session
 from dualfoot_ros.simulation import WalkConfig, simulate
@@ -93,17 +95,19 @@ def run_epochs(count: int, rate: float, method: str = "spacing_vector") -> Worst
     session = standing_session(TrackerConfig(method=method), stand, period_ns)
     stamp = period_ns * len(stand)
     chunk = np.tile(loop, (max(1, CHECK_EVERY // len(loop)), 1))
-    out = np.zeros((len(chunk), lay.OUT))
-    dts = np.full(len(chunk), period_ns * 1e-9)
-    done = 0
+    last, chunk = len(chunk), np.concatenate([stand[-1:], chunk])
+    parts, rows, done = np.hsplit(chunk, 4), RowStore(len(chunk)), 0
     while done < count:
-        stamps: IntArray = stamp + period_ns * np.arange(len(chunk), dtype=np.int64)
-        for _ in session.steps(stamps, dts, chunk, (0, len(chunk)), out):
+        stamps: IntArray = stamp + period_ns * np.arange(-1, last, dtype=np.int64)
+        series = PairSeries(stamps, *map(np.ascontiguousarray, parts))
+        for _ in session.steps(series, (1, last + 1), rows):
             pass
-        stamp += period_ns * len(chunk)
-        done += len(chunk)
+        stamp += period_ns * last
+        done += last
         worst.look(session.space)
-        worst.finite = worst.finite and bool(np.isfinite(out).all())
+        there = series.present(slice(1, last + 1))
+        numbers = rows.written(slice(1, last + 1), there, session.heading_variances())
+        worst.finite = worst.finite and numbers
     return worst
 
 

@@ -2,7 +2,7 @@
 
     python benchmark/live_soak.py [--minutes 20] [--rate 200] [--engine compiled]
 
-A simulated lap is published again and again in real time to a `fusion` in a process of its own.
+A simulated walk of many laps is published in real time to a `fusion` in a process of its own.
 Its resident memory is read every second, and the latency of its odometry is measured from the
 moment a pair of samples is sent.  An inspection of the last minute takes some memory for a moment,
 so the growth is the slope of the lows of the second half, given with its standard error and for a
@@ -12,6 +12,7 @@ day; a shorter run only widens that error.
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import subprocess
 import sys
@@ -36,6 +37,7 @@ ROOT = Path(__file__).resolve().parents[1]
 MIB = 1024.0**2
 SCRIPT = "import sys; from dualfoot_ros.nodes.entry import fusion; sys.exit(fusion())"
 WARM_S = 20.0
+LAP_S = 30.0  # of the walk, at least
 
 
 @dataclass
@@ -50,9 +52,10 @@ class Record:
 class Feeder(Node):
     """Publishes a walk as two sensors would, and receives the odometry that comes of it."""
 
-    def __init__(self, rate: float, record: Record) -> None:
+    def __init__(self, minutes: float, rate: float, record: Record) -> None:
         super().__init__("feeder")
-        walk = simulate(WalkConfig(rate=rate, standing=5.0, final_standing=3.0), seed=1)
+        laps = math.ceil(60.0 * minutes / LAP_S)
+        walk = simulate(WalkConfig(rate=rate, laps=laps, standing=5.0), seed=1)
         self._values = stack_pairs(walk.left, walk.right)
         self._step_ns, self.record = round(1e9 / rate), record
         self._sent_ns: dict[int, int] = {}
@@ -78,7 +81,7 @@ class Feeder(Node):
         now_ns = time.time_ns()
         if stamp_ns > now_ns:
             return (stamp_ns - now_ns) * 1e-9
-        row: FloatArray = self._values[number % len(self._values)]
+        row: FloatArray = self._values[number]
         self._sent_ns[stamp_ns] = now_ns
         for k, message in enumerate(self._messages):
             set_time(message.header.stamp, stamp_ns)
@@ -107,7 +110,7 @@ def soak(minutes: float, rate: float, engine: str) -> Record:
     """Feed a fusion node for some minutes."""
     record = Record()
     rclpy.init(args=[])
-    executor, feeder = SingleThreadedExecutor(), Feeder(rate, record)
+    executor, feeder = SingleThreadedExecutor(), Feeder(minutes, rate, record)
     executor.add_node(feeder)
     command = [sys.executable, "-c", SCRIPT, "--ros-args", "-p", f"engine:={engine}"]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}

@@ -30,6 +30,7 @@ EXAMPLES = """examples:
   python -m benchmark.performance --yardstick ../yardstick
   python -m benchmark.performance --yardstick ../yardstick --only epochs start
   python -m benchmark.performance --only hour --keep /tmp/hour      the bag is made once
+  python -m benchmark.performance --only hour --keep /tmp/hour --hours 1 6
   python -m benchmark.performance --only outputs --walked 30
 """
 
@@ -44,7 +45,17 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--yardstick", type=Path, metavar="DIR", help="folder of epoch.c")
     parser.add_argument("--only", nargs="+", choices=PARTS, default=PARTS, help="parts to run")
-    parser.add_argument("--keep", type=Path, metavar="DIR", help="keep the bag of an hour here")
+    parser.add_argument(
+        "--keep", type=Path, metavar="DIR", help="keep the bags of the part hour here"
+    )
+    parser.add_argument(
+        "--hours",
+        nargs="+",
+        type=int,
+        default=[1],
+        metavar="N",
+        help="lengths of the walks of the part hour: several show how memory grows (default: 1)",
+    )
     parser.add_argument("--repetitions", type=int, default=5, metavar="N", help="default: 5")
     parser.add_argument("--epochs", type=int, default=60_000, metavar="N", help="of the C walk")
     parser.add_argument(
@@ -77,7 +88,7 @@ def figures(options: argparse.Namespace, console: Console) -> list[Figure]:
 def _parts(options: argparse.Namespace, c: CEpoch | None) -> dict[str, Callable[[], list[Figure]]]:
     parts: dict[str, Callable[[], list[Figure]]] = {
         "outputs": lambda: output_figures(options.walked),
-        "hour": lambda: _hour(options.keep, c),
+        "hour": lambda: _hour(options.keep, c, options.hours),
         "start": lambda: start_figures(options.repetitions),
         "growth": growth_figures,
     }
@@ -86,13 +97,13 @@ def _parts(options: argparse.Namespace, c: CEpoch | None) -> dict[str, Callable[
     return parts
 
 
-def _hour(keep: Path | None, c: CEpoch | None) -> list[Figure]:
+def _hour(keep: Path | None, c: CEpoch | None, hours: list[int]) -> list[Figure]:
     unit = c.us if c is not None else lambda: float("nan")
     if keep is not None:
         keep.mkdir(parents=True, exist_ok=True)
-        return hour_figures(keep, unit)
+        return hour_figures(keep, unit, hours)
     with tempfile.TemporaryDirectory() as folder:
-        return hour_figures(Path(folder), unit)
+        return hour_figures(Path(folder), unit, hours)
 
 
 def table(found: list[Figure]) -> Table:

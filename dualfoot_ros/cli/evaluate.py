@@ -117,10 +117,12 @@ def run(args: argparse.Namespace) -> int:
     from .. import evaluation
     from ..calibration import BiasMemory, for_feet
     from ..evaluation.reports import check_directory
+    from ..recording import keep_large_arrays_on_disk
 
     ExportOptions.of(args)  # refused before the work is done
     if args.output is not None:
         check_directory(args.output, overwrite=args.overwrite)
+    keep_large_arrays_on_disk()
     calibration = for_feet(args.calibration)
     memory = BiasMemory() if args.bias_memory is None else BiasMemory.load(args.bias_memory)
     config = tracker_config(args)

@@ -58,9 +58,10 @@ def run(args: argparse.Namespace) -> int:
 
 def _inspect(args: argparse.Namespace) -> Contents:
     from ..inspection import findings_of, mend_clocks, qualities_of
-    from ..recording import list_topics
+    from ..recording import keep_large_arrays_on_disk, list_topics
     from .info_lines import Contents
 
+    keep_large_arrays_on_disk()
     recording = mend_clocks(load_bag(args.bag, args))
     qualities = qualities_of(recording)
     contents = Contents(

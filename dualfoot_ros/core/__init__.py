@@ -66,7 +66,9 @@ from .rotation import (
     turn_quaternions,
     yaw_quaternion,
 )
+from .samples.by_block import row_blocks, row_distances, row_lengths, unwrapped_angles
 from .samples.increments import Increments
+from .samples.large_arrays import make_large_arrays_in, new_array, placed
 from .samples.mounting import (
     FORWARD_LEFT_UP,
     IDENTITY,
@@ -174,16 +176,22 @@ __all__ = [
     "dot",
     "exact_rotation",
     "fields_of",
+    "make_large_arrays_in",
     "mean_angle",
     "method_parameters",
     "nested",
+    "new_array",
     "os_error_text",
     "parameter",
+    "placed",
     "quaternion_matrices",
     "quaternion_matrix",
     "quaternion_yaw",
     "refusal_of",
     "rotate_each",
+    "row_blocks",
+    "row_distances",
+    "row_lengths",
     "skew",
     "stance_bounds",
     "stance_middles",
@@ -192,5 +200,6 @@ __all__ = [
     "swing_passings",
     "turn_quaternions",
     "turn_rows",
+    "unwrapped_angles",
     "yaw_quaternion",
 ]

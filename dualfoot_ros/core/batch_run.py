@@ -6,17 +6,17 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .kernel import layout as lay
 from .pair_stream import PairStream
 from .results.events import Event, EventKind
 from .results.row_store import RowStore
 from .results.trajectory import Trajectory
 from .results.update import Update
-from .samples.pair_gate import good_values, in_range, next_irregular, regular_samples
-from .samples.series import BoolArray, FloatArray, ImuPair, ImuSeries, IntArray, stack_pairs
+from .samples.pair_gate import next_irregular, regular_samples
+from .samples.pair_series import PairSeries
+from .samples.series import BoolArray, FloatArray, ImuPair, ImuSeries, IntArray
 from .session import Session
 
-STRETCH = 1 << 12  # samples that are run at once: their rows stay in the cache of the processor
+STRETCH = 1 << 12  # samples that are run at once: what is looked at of them stays in the cache
 STANDING = 1 << 7  # the same of a stand, whose windows are looked at before it is known to end
 AHEAD = 1 << 8  # samples that are looked up at once, to be run one by one
 
@@ -26,18 +26,13 @@ class BatchRun:
 
     def __init__(self, left: ImuSeries, right: ImuSeries, covariances: bool = True) -> None:
         """Prepare to run two series of equal stamps."""
-        stamps, count = left.stamp_ns, len(left)
-        self._stamps, self._series = stamps, (left, right)
-        self._dts = np.diff(stamps, prepend=stamps[:1]) * 1e-9
-        self._rows, self._store = np.zeros((STRETCH, lay.OUT)), RowStore(count, covariances)
-        self._kept = np.zeros(count, dtype=bool)
+        series = self._series = PairSeries.of(left, right)
+        self._stamps, self._store = series.stamp_ns, RowStore(len(series), covariances)
+        self._kept = np.zeros(len(series), dtype=bool)
         self._stops: IntArray | None = None
         self._taken: list[int] = []
         self._single: dict[int, FloatArray] = {}  # rows that came one by one, by their places
-        self._ahead, self._ahead_from = (
-            np.empty((0, 12)),
-            0,
-        )  # values of pairs that come one by one
+        self._ahead, self._ahead_from = np.empty((0, 12)), 0  # values of pairs, one by one
         self.events: list[Event] = []
 
     def run(self, stream: PairStream) -> None:
@@ -50,8 +45,7 @@ class BatchRun:
                 self._run_stretch(stream, session, k, stop)
                 k = stop
             else:
-                self._add(stream, k)
-                k += 1
+                k += self._align(stream, k) or self._add(stream, k)
         if self._taken:
             late = stream.start_late(int(self._stamps[self._taken[-1]]))
             if late is not None:
@@ -67,44 +61,37 @@ class BatchRun:
         if self._stops is None:
             longest_ns = session.holes.longest_ns
             spans = [slice(at, at + STRETCH) for at in range(0, len(self._stamps), STRETCH)]
-            good = np.concatenate([self._good(span) for span in spans])
+            good = np.concatenate([self._series.good(span) for span in spans])
             self._stops = next_irregular(regular_samples(self._stamps, good, longest_ns))
         return int(self._stops[k])
 
-    def _good(self, span: slice) -> BoolArray:
-        """Return (K,) which pairs have values that the gate takes: nearly always all."""
-        parts = [(each.specific_force[span], each.angular_rate[span]) for each in self._series]
-        if all(in_range(values) for part in parts for values in part):
-            return np.ones(len(parts[0][0]), dtype=bool)
-        return good_values(self._values(span))
-
-    def _values(self, span: slice) -> FloatArray:
-        """Return the values (K, 12) of some pairs."""
-        left, right = self._series
-        return stack_pairs(left[span], right[span])
-
-    def _one(self, k: int) -> FloatArray:
-        """Return the values (12,) of pair ``k``; one pair after the other is asked for."""
+    def _values_from(self, k: int) -> FloatArray:
+        """Return the values (K, 12) of pair ``k`` and of some after it."""
         if not 0 <= k - self._ahead_from < len(self._ahead):
-            self._ahead, self._ahead_from = self._values(slice(k, k + AHEAD)), k
-        one: FloatArray = self._ahead[k - self._ahead_from]
-        return one
+            self._ahead, self._ahead_from = self._series.values(slice(k, k + AHEAD)), k
+        return self._ahead[k - self._ahead_from :]
 
     def _run_stretch(self, stream: PairStream, session: Session, start: int, stop: int) -> None:
-        span, rows = slice(start, stop), self._rows[: stop - start]
-        samples = self._stamps[span], self._dts[span], self._values(span)
+        series, span = self._series, slice(start, stop)
         self._put_single()
-        put = 0
-        for row, found in session.steps(*samples, (0, stop - start), rows):
-            if any(event.kind is EventKind.HEADING for event in found):
-                self._store.put(slice(start + put, start + row + 1), rows[put : row + 1])
-                put = row + 1
-            self._note(start + row, found)
-        self._store.put(slice(start + put, stop), rows[put:])
-        self._kept[span] = stream.went_on(rows, int(self._stamps[stop - 1]))
+        for row, found in session.steps(series, (start, stop), self._store):
+            self._note(row, found)
+        numbers = self._store.written(span, series.present(span), session.heading_variances())
+        self._kept[span] = numbers
+        stream.went_on(stop - start, int(self._stamps[stop - 1]), numbers=numbers)
 
-    def _add(self, stream: PairStream, k: int) -> None:
-        update = stream.add(ImuPair(int(self._stamps[k]), self._one(k)))
+    def _align(self, stream: PairStream, k: int) -> int:
+        """Look for a start from pair ``k`` on, many pairs at once; return how many were taken."""
+        values = self._values_from(k)
+        taken, update = stream.align_all(self._stamps[k : k + len(values)], values)
+        self._taken.extend(range(k, k + taken))
+        if update is not None:
+            self._keep(update)
+        return taken
+
+    def _add(self, stream: PairStream, k: int) -> int:
+        """Feed pair ``k`` alone; return 1, the number of pairs."""
+        update = stream.add(ImuPair(int(self._stamps[k]), self._values_from(k)[0]))
         if update.refused is None:
             self._taken.append(k)
         if any(event.kind is EventKind.RESET for event in update.announced):
@@ -112,6 +99,7 @@ class BatchRun:
             self._kept[:k], self._taken = False, self._taken[-1:]
             self.events.clear()
         self._keep(update)
+        return 1
 
     def _keep(self, update: Update) -> None:
         """Keep an update, and those before it, in the rows of the pairs taken last."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -48,8 +47,7 @@ LEFT_ALONE: Mapping[str, int] = {
 }
 
 
-@dataclass(frozen=True)
-class Outcome:
+class Outcome(NamedTuple):
     """What came of a constraint: as in :class:`dualfoot_ros.core.Event`."""
 
     innovation: FloatArray
@@ -209,19 +207,23 @@ class JointEstimate:
         result = getattr(self._engine, entry)(self._space.w, self._x, *given)
         return float(result), self._x.tolist()
 
-    def constrain_distance(
-        self, c0: float, std: float, *, solves: bool, separation: Sequence[float] | None = None
-    ) -> tuple[bool, list[float]]:
-        """Bring the feet to ``c0`` m, known to ``std`` m, if they are farther apart.
+    def end_stance(
+        self,
+        rule: FloatArray,
+        learnt: FloatArray,
+        foot: int,
+        heading: float,
+        gate: float,
+        since: int,
+    ) -> tuple[int, list[float]]:
+        """Do what a ``rule`` says at the end of the stance of ``foot``, in the kernel.
 
-        ``separation`` (3,) m is left minus right position, where it is not that of now; unless the
-        kernel ``solves`` the state stays as it is.  Returns whether they are, and what was found.
+        Returns what was done, END_DONE or another, and the array as `act` does.
         """
-        given = (0.0, 0.0, 0.0) if separation is None else separation
-        exceeds, found = self.act(
-            "constrain_distance", c0, std, solves, separation is not None, *given
-        )
-        return exceeds != 0.0, found
+        w, n, x = self._space.w, self._space.n, self._x
+        ahead = math.cos(heading), math.sin(heading)
+        done = self._engine.end_stance(w, n, x, rule, learnt, foot, *ahead, gate, since)
+        return done, x.tolist() if done == lay.END_DONE else []
 
     def measured(self, rows: int) -> tuple[FloatArray, FloatArray]:
         """Return innovation (m,) and S (m, m) of the ``rows`` that `act` has updated with."""

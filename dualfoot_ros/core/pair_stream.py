@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
-import numpy as np
+from numpy import empty
 
 from .aids import AidInputs
 from .alignment import Alignment, BiasPrior, Start
@@ -12,13 +12,16 @@ from .compiler import BackgroundEngine, compiled
 from .config import TrackerConfig
 from .errors import ConfigError
 from .kernel import Engine, interpreted
+from .kernel.layout import TAKEN, TO_ATTEND
+from .results.context import Context
 from .results.events import FEET, Event, EventKind
 from .results.payloads import Reason
 from .results.update import Update
 from .samples.increments import Increments
 from .samples.pair_gate import MAX_GAP_NS, Jump, PairGate
-from .samples.series import FloatArray, ImuPair
+from .samples.series import FloatArray, ImuPair, IntArray
 from .session import GivenPose, Session
+from .session.session import TOLD
 
 
 class PairStream:
@@ -34,18 +37,19 @@ class PairStream:
         ConfigError
             For an unknown ``engine``.
         """
-        self.config, self.counters, self._inputs = config, counters, inputs
+        self.config, self._counters, self._inputs = config, counters, inputs
         self.increments: dict[str, Increments | None] = dict.fromkeys(FEET)
         self.priors: dict[str, BiasPrior] = {}
-        self.pose: GivenPose | None = None
+        self._pose: GivenPose | None = None
         self.session: Session | None = None
+        self._walking: Session | None = None  # when the next pair may just follow that before it
         self.use_engine(engine)
         self._begin()
 
     def _begin(self) -> None:
         self.align_anew()
-        self.session = None
-        self.gate = PairGate()
+        self.session = self._walking = None
+        self._gate = PairGate()
         self._pending: list[Event] = []
         self._aids = self._inputs.methods()
 
@@ -67,6 +71,7 @@ class PairStream:
             raise ConfigError(
                 f"engine is {engine!r}; allowed is one of auto, compiled, interpreted"
             )
+        self._walking = None
         self.background = BackgroundEngine() if engine == "auto" else None
         self.engine = compiled() if engine == "compiled" else interpreted()
         if self.session is not None:
@@ -99,7 +104,31 @@ class PairStream:
     @property
     def undisturbed(self) -> Session | None:
         """The session, when nothing but samples can change it now."""
-        return None if self.pose or self._pending else self.session
+        return None if self._pose or self._pending else self.session
+
+    @property
+    def counters(self) -> Counter[str]:
+        """What became of the pairs, by name."""
+        self._note_taken()
+        return self._counters
+
+    @property
+    def gate(self) -> PairGate:
+        """What decides about each pair."""
+        self._note_taken()
+        return self._gate
+
+    def _note_taken(self) -> None:
+        """Take note of the pairs that the kernel has taken by itself."""
+        if self.session is not None:
+            taken, newest_ns = self.session.pairs_taken()
+            if taken:
+                self._counters["pairs"] += taken
+                self._gate.went_on(newest_ns)
+
+    def set_pose(self, pose: GivenPose) -> None:
+        """Put the person where the ``pose`` says, with the next pair that is tracked."""
+        self._pose, self._walking = pose, None
 
     def reset(self, stamp_ns: int, reason: Reason) -> None:
         """Forget everything but the counters and align anew."""
@@ -116,24 +145,36 @@ class PairStream:
 
     def add(self, pair: ImuPair) -> Update:
         """Take one pair; total: bad data gives a counted, named refusal, never an exception."""
-        stamp, values = int(pair.stamp_ns), pair.values
-        session = self.undisturbed
-        if session is not None and self.background is None:  # nearly always
-            dt_ns = self.gate.interval(stamp, values, session.holes.longest_ns)
-            if dt_ns:
-                self.counters["pairs"] += 1
-                update = session.step(stamp, dt_ns * 1e-9, values)
+        stamp, session = int(pair.stamp_ns), self._walking
+        if session is not None:
+            told = empty(TOLD)
+            done = session.take(stamp, pair.values, told)
+            if done == TAKEN:  # nearly always
+                return Update(stamp, session.context, told)
+            if done == TO_ATTEND:
+                update = session.attend(stamp, told)
                 return self._not_finite(stamp) if update is None else update
-        refused = self.gate.refusal(stamp, values)
-        jumped = refused is Jump.CLOCK_SET
+        return self._add(stamp, pair.values)
+
+    def _add(self, stamp: int, values: FloatArray) -> Update:
+        """Take a pair of which nothing is known, and see whether the next may just follow it."""
+        gate, counters = self.gate, self.counters
+        refused = gate.refusal(stamp, values)
         if refused is Jump.BEGINS_ANEW:
             self.reset(stamp, Reason.TIME_JUMPED)
-        elif refused is not None and not jumped:
-            self.counters[refused] += 1
-            return Update(stamp, self.phase, refused=refused, events=self._take_pending())
-        self.counters["pairs"] += 1
+        elif refused is not None and refused is not Jump.CLOCK_SET:
+            counters[refused] += 1
+            return self._without(stamp, self.phase, refused)
+        counters["pairs"] += 1
         if self.background is not None:
             self._poll_engine()
+        update = self._take(stamp, values, jumped=refused is Jump.CLOCK_SET)
+        session = self.undisturbed if self.background is None else None
+        self._walking = session if session and session.phase == "walking" else None
+        return update
+
+    def _take(self, stamp: int, values: FloatArray, *, jumped: bool) -> Update:
+        """Take a pair that is not refused; ``jumped`` says that a clock was set before it."""
         dt_ns = self.gate.step(stamp)
         if self.session is None:
             if jumped:
@@ -144,19 +185,44 @@ class PairStream:
             dt_ns = 2 * self.session.holes.period_ns
         return self._track(self.session, stamp, dt_ns, values)
 
+    def _without(self, stamp: int, phase: str, refused: str | None = None) -> Update:
+        """Return an update without an estimate."""
+        return Update(stamp, Context(phase, events=self._take_pending(), refused=refused))
+
     def _take_pending(self) -> tuple[Event, ...]:
         events, self._pending = tuple(self._pending), []
         return events
 
     def _align(self, stamp: int, values: FloatArray) -> Update:
-        """Look for a start; where pairs have waited for it, run them first."""
-        start = self.alignment.add(stamp, values)
+        """Look for a start."""
+        return self._started(stamp, self.alignment.add(stamp, values))
+
+    def align_all(self, stamps: IntArray, values: FloatArray) -> tuple[int, Update | None]:
+        """Take the first pairs (N, 12) as `add` does, as far as they can be taken many at once.
+
+        That is while nothing but windows matters.  Return how many were taken, and the update of
+        the last one when that has started a track.
+        """
+        if self.session is not None or self._pending or not self.alignment.takes_many:
+            return 0, None
+        count = self.gate.plain(stamps, values)
+        taken, start = self.alignment.add_all(stamps[:count], values[:count])
+        if taken == 0:
+            return 0, None
+        last_ns = int(stamps[taken - 1])
+        self.counters["pairs"] += taken
+        self.gate.went_on(last_ns)
+        update = self._started(last_ns, start)
+        return taken, None if start is None else update
+
+    def _started(self, stamp: int, start: Start | None) -> Update:
+        """Begin with a start, if there is one; where pairs have waited for it, run them first."""
         self.counters["alignment_restarts"] = self.alignment.restarts
         if start is None:
-            return Update(stamp, "aligning", events=self._take_pending())
+            return self._without(stamp, "aligning")
         session = self._begin_session(start, stamp)
         if not start.waiting:
-            return Update(stamp, "aligning", events=self._take_pending())
+            return self._without(stamp, "aligning")
         return self._catch_up(session, start)
 
     def _begin_session(self, start: Start, stamp: int) -> Session:
@@ -196,7 +262,7 @@ class PairStream:
             self.counters["filled"] += 1
             before = (*before, *holes.fill(stamp, dt_ns, values))
             dt_ns = holes.filled_ns
-        if self.pose is not None:
+        if self._pose is not None:
             before = (*before, *self._apply_pose(session, stamp))
         update = session.step(stamp, dt_ns * 1e-9, values, before)
         return self._not_finite(stamp) if update is None else update
@@ -204,22 +270,20 @@ class PairStream:
     def _not_finite(self, stamp: int) -> Update:
         """Begin anew after an epoch that was no numbers: the last guard."""
         self.reset(stamp, Reason.NOT_FINITE)
-        return Update(stamp, "aligning", events=self._take_pending())
+        return self._without(stamp, "aligning")
 
     def _apply_pose(self, session: Session, stamp: int) -> list[Event]:
-        if self.pose is None or not session.can_set_pose():
+        if self._pose is None or not session.can_set_pose():
             return []
-        pose, self.pose = self.pose, None
+        pose, self._pose = self._pose, None
         return session.set_pose(stamp, pose)
 
-    def went_on(self, rows: FloatArray, last_ns: int) -> bool:
-        """Take note that ``undisturbed`` has run samples; return whether their rows are numbers.
+    def went_on(self, count: int, last_ns: int, *, numbers: bool) -> None:
+        """Take note that ``undisturbed`` has run pairs up to that of ``last_ns``.
 
-        ``rows`` (N, OUT) are what it gave, ``last_ns`` the stamp of the last sample.
+        When what they gave is no ``numbers``, begin anew.
         """
-        self.counters["pairs"] += len(rows)
-        self.gate.step(last_ns)
-        finite = bool(np.isfinite(rows).all())
-        if not finite:
+        self.counters["pairs"] += count
+        self.gate.went_on(last_ns)
+        if not numbers:
             self.reset(last_ns, Reason.NOT_FINITE)
-        return finite

@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 from .constraints.method import Request
 from .joint_estimate import JointEstimate, Outcome
 from .kernel import Engine, Workspace
 from .kernel import layout as lay
+from .misfit import apply_doubting
 
 ACTIONS = 16  # constraints kept before those that no roll-back can reach are dropped
+Feet = Sequence[int]
+
+
+class Action(NamedTuple):
+    """A constraint and the epoch it was applied at; ``doubted`` feet are where it may not fit."""
+
+    epoch: int
+    apply: Callable[[JointEstimate], Outcome]
+    doubted: Feet
 
 
 class RollBack:
@@ -20,7 +31,8 @@ class RollBack:
 
     def __init__(self, space: Workspace) -> None:
         self._space = space
-        self._actions: list[tuple[int, Callable[[JointEstimate], Outcome]]] = []
+        self._actions: list[Action] = []
+        self.newest = -1  # epoch of the newest of them
 
     def use(self, engine: Engine, estimate: JointEstimate) -> None:
         """Go on with another form of the kernel."""
@@ -29,6 +41,7 @@ class RollBack:
     def forget(self) -> None:
         """Forget what was applied: it cannot be applied again."""
         self._actions.clear()
+        self.newest = -1
 
     def clean_phases(self, bits: Sequence[int]) -> None:
         """Undo the zero velocity of a stance, or the swing within one, that was none.
@@ -61,25 +74,47 @@ class RollBack:
         change()
         self._engine.rerun(self._space.w, self._space.n, epoch, epoch)
 
-    def apply(self, requests: Sequence[Request]) -> list[tuple[Request, Outcome]]:
-        """Apply all at their moments, or all now, and return what came of each, by epoch."""
-        now = self._space.epoch
-        if requests[0].roll_back:
-            if len(requests) > 1:
-                requests = sorted(requests, key=lambda request: request.epoch)
-            outcomes = self._replay(requests[0].epoch + 1, requests)
-        else:
-            outcomes = [request.apply(self._estimate) for request in requests]
-        pairs = list(zip(requests, outcomes, strict=True))
-        for request, outcome in pairs:
-            if outcome.accepted:
-                self._actions.append((request.epoch if request.roll_back else now, request.apply))
-        if len(self._actions) > ACTIONS:
-            oldest = self._space.oldest  # asked once: some methods act at every epoch
-            self._actions = [action for action in self._actions if action[0] >= oldest]
-        return pairs
+    def apply(self, requests: Sequence[Request], doubted: Feet = ()) -> list[Outcome]:
+        """Apply all at their moments, or all now; return what came of each.
 
-    def _replay(self, first: int, fresh: Sequence[Request]) -> list[Outcome]:
+        They are in the order of their epochs.  Where one cannot fit, the places of the ``doubted``
+        feet are taken for unknown.
+        """
+        space = self._space
+        if requests[0].roll_back:
+            fresh = [Action(request.epoch, request.apply, doubted) for request in requests]
+            outcomes = self._replay(requests[0].epoch + 1, fresh)
+        else:
+            fresh = [Action(space.epoch, request.apply, doubted) for request in requests]
+            outcomes = [self._outcome(action) for action in fresh]
+        for action, outcome in zip(fresh, outcomes, strict=True):
+            if outcome.accepted:
+                self._keep(action)
+        self._forget_old()
+        return outcomes
+
+    def note(self, action: Action) -> None:
+        """Take note of what the kernel has applied by itself."""
+        self._keep(action)
+        self._forget_old()
+
+    def _keep(self, action: Action) -> None:
+        self._actions.append(action)
+        self.newest = max(self.newest, action.epoch)
+
+    def _forget_old(self) -> None:
+        """Forget what no roll-back can reach, now and then."""
+        if len(self._actions) > ACTIONS:
+            oldest = self._space.oldest
+            self._actions = [action for action in self._actions if action.epoch >= oldest]
+
+    def _outcome(self, action: Action) -> Outcome:
+        """Apply an action to the present state."""
+        if not action.doubted:
+            return action.apply(self._estimate)
+        return apply_doubting(self._space, self._estimate, action.apply, action.doubted)
+
+    def _replay(self, first: int, fresh: Sequence[Action]) -> list[Outcome]:
         """Go back to before epoch ``first`` and run up to the newest again.
 
         Constraints already applied since are applied again, each at its own epoch; the ``fresh``
@@ -89,15 +124,14 @@ class RollBack:
         w, n = space.w, space.n
         engine.restore(w, n, first)
         outcomes = []
-        actions = [(request.epoch, request.apply, True) for request in fresh]
-        old = [(epoch, apply, False) for epoch, apply in self._actions if epoch >= first]
-        if old:
-            actions = sorted([*old, *actions], key=lambda action: action[0])
-        for epoch, apply, is_fresh in actions:
-            if first <= epoch:
-                engine.rerun(w, n, first, epoch)
-                first = epoch + 1
-            outcome = apply(self._estimate)
+        actions = [(action, True) for action in fresh]
+        actions += [(action, False) for action in self._actions if action.epoch >= first]
+        # of one epoch those that were there before come first
+        for action, is_fresh in sorted(actions, key=lambda each: (each[0].epoch, each[1])):
+            if first <= action.epoch:
+                engine.rerun(w, n, first, action.epoch)
+                first = action.epoch + 1
+            outcome = self._outcome(action)
             if is_fresh:
                 outcomes.append(outcome)
         engine.rerun(w, n, first, space.epoch)

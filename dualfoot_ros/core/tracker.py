@@ -43,9 +43,9 @@ class DualFootTracker:
     def __init__(self, config: TrackerConfig | None = None, *, engine: str = "auto") -> None:
         """Start aligning with the first pair."""
         self.config = config or TrackerConfig()
-        self.counters: Counter[str] = Counter()
-        self._inputs = AidInputs(self.config.aids, self.counters)
-        self._stream = PairStream(self.config, self.counters, self._inputs, engine)
+        counters: Counter[str] = Counter()
+        self._inputs = AidInputs(self.config.aids, counters)
+        self._stream = PairStream(self.config, counters, self._inputs, engine)
 
     def use_engine(self, engine: str) -> None:
         """Go on with another form of the kernel: "auto", "compiled" or "interpreted".
@@ -82,6 +82,11 @@ class DualFootTracker:
     def engine(self) -> str:
         """Which form of the kernel runs: "interpreted" or "compiled"."""
         return self._stream.engine.name
+
+    @property
+    def counters(self) -> Counter[str]:
+        """What became of the pairs, and of what the aids were given, by name: until now."""
+        return self._stream.counters
 
     @property
     def phase(self) -> str:
@@ -133,7 +138,7 @@ class DualFootTracker:
             When ``position`` is not three finite numbers, ``yaw`` is not finite, or ``covariance``
             is none.
         """
-        self._stream.pose = given_pose(position, yaw, covariance)
+        self._stream.set_pose(given_pose(position, yaw, covariance))
 
     def add(self, pair: ImuPair) -> Update:
         """Take one pair; total: bad data gives a counted, named refusal, never an exception."""

@@ -10,7 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from ..core import ONE_FOOT_STD, BoolArray, Covariances, FloatArray, IntArray, Trajectory
+from ..core import (
+    ONE_FOOT_STD,
+    BoolArray,
+    Covariances,
+    FloatArray,
+    IntArray,
+    Trajectory,
+    new_array,
+    row_blocks,
+)
 
 BLOCK = 1 << 12  # epochs whose matrices are made at once
 ALL = slice(None)
@@ -23,11 +32,20 @@ def person_shares(trajectory: Trajectory, rows: slice | IntArray | BoolArray = A
     return np.array([of_left, 1.0 - of_left])
 
 
-def person_position(trajectory: Trajectory) -> FloatArray:
-    """Return the position (N, 3) m between the sensors of the feet that are there."""
-    left, right = person_shares(trajectory)[:, :, None]
-    position: FloatArray = left * trajectory.left.position + right * trajectory.right.position
+def person_position(trajectory: Trajectory, rows: slice | IntArray) -> FloatArray:
+    """Return the position (K, 3) m between the sensors of the feet that are there."""
+    a, b = person_shares(trajectory, rows)[:, :, None]
+    left, right = trajectory.left.position[rows], trajectory.right.position[rows]
+    position: FloatArray = a * left + b * right
     return position
+
+
+def person_positions(trajectory: Trajectory) -> FloatArray:
+    """Return that position at all epochs, (N, 3) m."""
+    positions = new_array(trajectory.left.position.shape)
+    for rows in row_blocks(len(positions)):
+        positions[rows] = person_position(trajectory, rows)
+    return positions
 
 
 def person_covariance(trajectory: Trajectory, rows: slice | IntArray | BoolArray) -> FloatArray:

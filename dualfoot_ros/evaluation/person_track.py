@@ -12,11 +12,12 @@ from ..core import (
     FootTrajectory,
     IntArray,
     Trajectory,
+    placed,
     quaternion_matrices,
 )
 from .frames.association import Footfalls, seconds
 from .gait import forward_axis
-from .person_shares import PersonCovariances, person_position, person_shares
+from .person_shares import PersonCovariances, person_positions, person_shares
 
 CHI2_95_PLANE = 5.991
 """95 % quantile of chi-square with two degrees of freedom."""
@@ -64,28 +65,37 @@ class PersonTrack:
 def person_track(trajectory: Trajectory) -> PersonTrack:
     """Return the person's track of both feet, or of the foot that has samples."""
     feet = trajectory.left, trajectory.right
-    left, shares = feet[0], person_shares(trajectory)
-    falls = [Footfalls.of(foot) for foot in feet]
-    walked = [f.walked(foot.position, foot.stamp_ns) for f, foot in zip(falls, feet, strict=True)]
-    steps = [np.diff(way, prepend=0.0) for way in walked]
-    floors = [_held(foot, f, foot.position[:, 2]) for f, foot in zip(falls, feet, strict=True)]
-    headings = [_heading(foot, f) for f, foot in zip(falls, feet, strict=True)]
+    shares = person_shares(trajectory)
+    stood = [(foot, Footfalls.of(foot)) for foot in feet]
+    steps = (np.diff(f.walked(foot.position, foot.stamp_ns), prepend=0.0) for foot, f in stood)
+    floors = (_floor(foot, f) for foot, f in stood)
+    headings = (_heading(foot, f) for foot, f in stood)
     return PersonTrack(
-        stamp_ns=left.stamp_ns,
-        position=person_position(trajectory),
+        stamp_ns=feet[0].stamp_ns,
+        position=person_positions(trajectory),
         covariance=PersonCovariances(trajectory),
-        heading=_mean_heading(headings[0], headings[1], shares),
-        floor_m=shares[0] * floors[0] + shares[1] * floors[1],
-        walked_m=np.cumsum(shares[0] * steps[0] + shares[1] * steps[1]),
+        heading=placed(_mean_heading(shares, *headings)),
+        floor_m=placed(_shared(shares, *floors)),
+        walked_m=placed(np.cumsum(_shared(shares, *steps))),
     )
 
 
+def _shared(shares: FloatArray, left: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the mean (N,) of what both feet say."""
+    mean: FloatArray = shares[0] * left + shares[1] * right
+    return mean
+
+
+def _floor(foot: FootTrajectory, falls: Footfalls) -> FloatArray:
+    """Return the height (N,) m of a foot where it stands; as it is without any stance."""
+    height = foot.position[:, 2]
+    return _held(foot, falls, height[falls.middle]) if len(falls) else height
+
+
 def _held(foot: FootTrajectory, falls: Footfalls, values: FloatArray) -> FloatArray:
-    """Return ``values`` (N,) as they are in the middles of the stances, joined by lines."""
-    if len(falls) == 0:
-        return values
+    """Return ``values`` (M,) in the middles of the stances joined by lines, at all epochs (N,)."""
     time = seconds(foot.stamp_ns, int(foot.stamp_ns[0]))
-    held: FloatArray = np.interp(time, time[falls.middle], values[falls.middle])
+    held: FloatArray = np.interp(time, time[falls.middle], values)
     return held
 
 
@@ -95,13 +105,10 @@ def _heading(foot: FootTrajectory, falls: Footfalls) -> FloatArray:
     if axis is None:
         return np.zeros(len(foot))
     ahead = quaternion_matrices(foot.quaternion[falls.middle]) @ axis
-    stood = np.full(len(foot), np.nan)
-    stood[falls.middle] = np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0]))
-    return _held(foot, falls, stood)
+    return _held(foot, falls, np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0])))
 
 
-def _mean_heading(left: FloatArray, right: FloatArray, shares: FloatArray) -> FloatArray:
+def _mean_heading(shares: FloatArray, left: FloatArray, right: FloatArray) -> FloatArray:
     """Return the mean of two unwrapped headings (N,), whole turns apart or not."""
     turns = np.round((right[0] - left[0]) / (2 * np.pi)) * 2 * np.pi if len(left) else 0.0
-    mean: FloatArray = shares[0] * left + shares[1] * (right - turns)
-    return mean
+    return _shared(shares, left, right - turns)

@@ -23,6 +23,7 @@ from ..core import (
 )
 from ..recording import Recording
 from ..timing import align_with_report
+from .frames.association import as_slice
 from .frames.gauge import Truth
 
 NO_SAMPLES = ImuSeries(np.empty(0, dtype=np.int64), np.empty((0, 3)), np.empty((0, 3)))
@@ -174,8 +175,8 @@ def _last_stand(samples: PairedSamples, foot: str, config: TrackerConfig) -> Bia
     key = foot, config.alignment, config.gravity, config.noise
     if key not in samples.stands:
         series = samples.left if foot == FEET[0] else samples.right
-        there = np.flatnonzero(~np.isnan(series.specific_force).any(axis=1))
-        samples.stands[key] = bias_after(series[there], config)
+        there = np.asarray(~np.isnan(series.specific_force).any(axis=1))
+        samples.stands[key] = bias_after(series[as_slice(there)], config)
     return samples.stands[key]
 
 

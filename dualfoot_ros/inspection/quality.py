@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import FloatArray, ImuSeries, IntArray
+from ..core import FloatArray, ImuSeries, IntArray, row_lengths
 from ..timing import AlignerConfig, clean, finite_samples
 from .gyro_agreement import GyroAgreement, gyro_agreement
 from .overlaid import Overlaid, find_overlaid
@@ -149,4 +149,4 @@ def _missing(steps: IntArray) -> int:
 def _quantile(vectors: FloatArray, share: float) -> float:
     if not len(vectors):
         return float("nan")
-    return float(np.quantile(np.linalg.norm(vectors, axis=1), share))
+    return float(np.quantile(row_lengths(vectors), share))

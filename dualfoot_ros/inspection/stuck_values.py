@@ -62,6 +62,7 @@ class Stuck:
     share: float
 
 
+Triads = tuple[FloatArray, FloatArray]
 Run = tuple[int, int]
 """First and last sample of a stretch."""
 
@@ -70,21 +71,21 @@ def find_stuck(series: ImuSeries) -> tuple[Stuck, ...]:
     """Return what is stuck in the usable samples of one foot: the sensor, or single axes."""
     if len(series) < 2 * LEAST_SAMPLES:
         return ()
-    seconds = (series.stamp_ns - series.stamp_ns[0]) * 1e-9
     triads = series.specific_force, series.angular_rate
-    same = [column for v in triads for column in (v[1:] == v[:-1]).T]
+    seconds = (series.stamp_ns - series.stamp_ns[0]) * 1e-9
+    same = [column for triad in triads for column in (triad[1:] == triad[:-1]).T]
     sensor = _runs(np.logical_and.reduce(same))
-    whole = [run for run in sensor if _is_stuck(series, seconds, run)]
+    whole = [run for run in sensor if _is_stuck(triads, seconds, run)]
     if whole:
         return (_summarise(Channel.SENSOR, whole, seconds),)
-    return tuple(_stuck_axes(series, seconds, same))
+    return tuple(_stuck_axes(triads, seconds, same))
 
 
-def _stuck_axes(
-    series: ImuSeries, seconds: FloatArray, same: Sequence[BoolArray]
-) -> Iterator[Stuck]:
+def _stuck_axes(triads: Triads, seconds: FloatArray, same: Sequence[BoolArray]) -> Iterator[Stuck]:
     for axis, channel in enumerate(AXES):
-        runs = [run for run in _runs(same[axis]) if _others_move(series, seconds, axis, run)]
+        runs = [
+            run for run in _runs(same[axis]) if _others_move(triads[axis // 3], seconds, axis, run)
+        ]
         if runs:
             yield _summarise(channel, runs, seconds)
 
@@ -137,22 +138,21 @@ def _runs(same: BoolArray) -> list[Run]:
     return [(first, last) for first, last in long.tolist()]
 
 
-def _is_stuck(series: ImuSeries, seconds: FloatArray, run: Run) -> bool:
+def _is_stuck(triads: Triads, seconds: FloatArray, run: Run) -> bool:
     first, last = run
-    off = abs(float(np.linalg.norm(series.specific_force[first])) - STANDARD_GRAVITY)
-    rest = off < AT_REST[0] and float(np.abs(series.angular_rate[first]).max()) < AT_REST[1]
+    force, rate = (values[first] for values in triads)
+    off = abs(float(np.linalg.norm(force)) - STANDARD_GRAVITY)
+    rest = off < AT_REST[0] and float(np.abs(rate).max()) < AT_REST[1]
     return bool(seconds[last] - seconds[first] >= (LEAST_AT_REST_S if rest else LEAST_S))
 
 
-def _others_move(series: ImuSeries, seconds: FloatArray, axis: int, run: Run) -> bool:
-    """Return whether another axis of the triad moves while ``axis`` does not."""
+def _others_move(triad: FloatArray, seconds: FloatArray, axis: int, run: Run) -> bool:
+    """Return whether another axis of the ``triad`` (N, 3) moves while ``axis`` does not."""
     first, last = run
     if seconds[last] - seconds[first] < LEAST_AXIS_S:
         return False
-    triad = axis // 3
-    values = series.angular_rate if triad else series.specific_force
-    span = np.ptp(values[first : last + 1], axis=0)
-    return bool(span.max() > MOVES[triad])
+    span = np.ptp(triad[first : last + 1], axis=0)
+    return bool(span.max() > MOVES[axis // 3])
 
 
 def _summarise(channel: Channel, runs: list[Run], seconds: FloatArray) -> Stuck:

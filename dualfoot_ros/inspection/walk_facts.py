@@ -23,6 +23,7 @@ LEAST_STRIDE_M = 0.3  # shorter ones are shuffling, or turning on the spot
 LEAST_STRIDES = 6  # of a foot, for a course
 LEAST_TURN_STD = 0.3  # rad, of the course, to compare turns
 STEP_STANCE_S = 1.2  # a longer stance is no step
+LEAST_HOLE_S = 0.1  # without a sample; a stance may be in it
 
 
 @dataclass(frozen=True)
@@ -35,9 +36,12 @@ class StepFacts:
     paced : the same with the half strides of a start and a stop as what they are of the median one
     median_stride_m, longest_stride_m : m, of these, horizontal; nan without any
     longest_at_s : s, when the longest one ends, from the start of the track
-    missed : stances that the foot must have had while the other one stood repeatedly
+    longest_hole_s : s, the longest time without a sample in it
+    missed : stances that the foot must have had while the other one stood repeatedly, where it
+        had samples
     without_stance_s, without_stance_at_s : s, the longest time without a stance after the first
         one, and when it begins
+    without_stance_hole_s : s, the longest time without a sample in it
     usual_swing_s : s, median time between stances
     moving_share : median share of stance in the cycles of the strides; nan without any
     way_m : m, from stance to stance
@@ -48,9 +52,11 @@ class StepFacts:
     median_stride_m: float
     longest_stride_m: float
     longest_at_s: float
+    longest_hole_s: float
     missed: int
     without_stance_s: float
     without_stance_at_s: float
+    without_stance_hole_s: float
     usual_swing_s: float
     moving_share: float
     way_m: float
@@ -101,7 +107,7 @@ def _steps(foot: FootTrajectory, other: FootTrajectory) -> StepFacts:
     strides = lengths >= LEAST_STRIDE_M
     longest = int(np.argmax(lengths)) if strides.any() else -1
     median_m = float(np.median(lengths[strides])) if strides.any() else float("nan")
-    swings = _swings_s(foot, bounds)
+    swings, holes = _swings_s(foot, bounds), _holes_s(foot, bounds)
     gap = int(np.argmax(swings)) if len(swings) else -1
     return StepFacts(
         strides=int(strides.sum()),
@@ -111,9 +117,11 @@ def _steps(foot: FootTrajectory, other: FootTrajectory) -> StepFacts:
         longest_at_s=(
             _seconds(foot, int(bounds[longest + 1, 0])) if longest >= 0 else float("nan")
         ),
-        missed=_missed(bounds, other.stance),
+        longest_hole_s=float(holes[longest]) if longest >= 0 else 0.0,
+        missed=int(_missed(bounds, other.stance)[holes[:-1] < LEAST_HOLE_S].sum()),
         without_stance_s=float(swings[gap]) if gap >= 0 else 0.0,
         without_stance_at_s=_seconds(foot, int(bounds[gap, 1]) - 1) if gap >= 0 else float("nan"),
+        without_stance_hole_s=float(holes[gap]) if gap >= 0 else 0.0,
         usual_swing_s=float(np.median(swings)) if len(swings) else float("nan"),
         moving_share=_moving_share(foot, bounds, strides),
         way_m=float(lengths.sum()),
@@ -136,12 +144,13 @@ def _seconds(foot: FootTrajectory, epoch: int) -> float:
     return float(foot.stamp_ns[epoch] - foot.stamp_ns[0]) * 1e-9
 
 
-def _missed(bounds: IntArray, other: np.ndarray) -> int:
-    """Return how many stances of ``other`` more than one lie within steps of a foot."""
+def _missed(bounds: IntArray, other: np.ndarray) -> IntArray:
+    """Return how many stances of ``other`` more than one lie within each step of a foot."""
     theirs = stance_bounds(other)
     before = np.searchsorted(theirs[:, 0], bounds[:-1, 1], side="left")
     until = np.searchsorted(theirs[:, 1], bounds[1:, 0], side="right")
-    return int(np.maximum(until - before - 1, 0).sum())
+    missed: IntArray = np.maximum(until - before - 1, 0)
+    return missed
 
 
 def _swings_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:
@@ -151,6 +160,19 @@ def _swings_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:
     begins = np.append(bounds[1:, 0], len(foot) - 1)
     swings: FloatArray = (foot.stamp_ns[begins] - foot.stamp_ns[bounds[:, 1] - 1]) * 1e-9
     return swings
+
+
+def _holes_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:
+    """Return the longest time without a sample, s, for each stance and the step after it.
+
+    The step before it counts too: a foot that was away is put right in its first stance.
+    """
+    there = np.flatnonzero(foot.present)
+    steps = np.diff(foot.stamp_ns[there], prepend=foot.stamp_ns[:1]) * 1e-9
+    firsts = np.searchsorted(there, np.append(bounds[:1, 0], bounds[:-1, 0])) + 1
+    lasts = np.searchsorted(there, np.append(bounds[1:, 1], len(foot)))
+    spans = zip(firsts, lasts, strict=True)
+    return np.array([steps[first:last].max(initial=0.0) for first, last in spans])
 
 
 def _moving_share(foot: FootTrajectory, bounds: IntArray, strides: np.ndarray) -> float:
@@ -165,7 +187,7 @@ def _moving_share(foot: FootTrajectory, bounds: IntArray, strides: np.ndarray) -
 
 
 def _course(foot: FootTrajectory) -> tuple[FloatArray, FloatArray]:
-    """Return stamps (S,) s and unwrapped directions (S,) rad of a foot's strides."""
+    """Return stamps (S,) s and unwrapped_angles directions (S,) rad of a foot's strides."""
     middles = stance_bounds(foot.stance).sum(axis=1) // 2
     ways: FloatArray = np.diff(foot.position[middles, :2], axis=0)
     long = np.linalg.norm(ways, axis=1) >= LEAST_STRIDE_M

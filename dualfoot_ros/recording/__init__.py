@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from .snapshot_file import read_snapshot, write_snapshot
     from .storage.bag_source import TopicInfo
     from .storage.bag_writer import new_bag
+    from .storage.file_arrays import keep_large_arrays_on_disk
     from .topic_choice import TopicChoice, choose_topics, find_topics, topics_of_foot
     from .topics import IMU_TYPE, PRESSURE_TOPICS, Topics
     from .track_bag import OdometrySeries, write_track_bag
@@ -44,6 +45,7 @@ __all__ = [
     "evidence_of",
     "find_topics",
     "is_bag",
+    "keep_large_arrays_on_disk",
     "list_topics",
     "new_bag",
     "new_directory",

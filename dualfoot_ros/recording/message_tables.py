@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core import FloatArray, IntArray, RecordingError
+from ..core import FloatArray, IntArray, RecordingError, new_array
 from . import cdr
 from .storage.bag_source import Block
 from .storage.log_order import recorded_order
@@ -78,7 +78,7 @@ class _Rows:
         """Add rows (K, ...) at the end."""
         end = self._count + len(rows)
         if self._array is None or end > len(self._array):
-            larger = np.empty((max(self._room, 2 * end), *rows.shape[1:]), dtype=rows.dtype)
+            larger = new_array((max(self._room, 2 * end), *rows.shape[1:]), rows.dtype)
             if self._array is not None:
                 larger[: self._count] = self._array[: self._count]
             self._array = larger

@@ -13,6 +13,8 @@ from dualfoot_ros.core.alignment import Alignment
 from dualfoot_ros.core.compiler import compiled
 from dualfoot_ros.core.kernel import Engine, interpreted
 from dualfoot_ros.core.kernel import layout as lay
+from dualfoot_ros.core.results.row_store import RowStore
+from dualfoot_ros.core.samples.pair_series import PairSeries
 from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.core.session import Session
 from dualfoot_ros.simulation import SensorConfig, WalkConfig, simulate
@@ -108,13 +110,9 @@ def open_session(
 
 def follow(session: Session, pairs: Pairs, start: int) -> Iterator[tuple[int, list]]:
     """Run the pairs from ``start`` on, one epoch at a time; yield (epoch, events)."""
-    dts, out = pairs.dts, np.zeros((len(pairs), lay.OUT))
+    series, rows = PairSeries.of(*pairs.series()), RowStore(len(pairs))
     for k in range(start, len(pairs)):
-        found = [
-            e
-            for _, es in session.steps(pairs.stamps, dts, pairs.values, (k, k + 1), out)
-            for e in es
-        ]
+        found = [e for _, es in session.steps(series, (k, k + 1), rows) for e in es]
         yield session.space.epoch, found
 
 

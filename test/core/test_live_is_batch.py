@@ -104,6 +104,15 @@ def test_live_equals_batch_to_the_bit_over_a_recording_that_begins_anew(before, 
     assert result.counters["resets"] == 1
 
 
+def test_live_equals_batch_where_stamps_far_ahead_come_one_by_one():
+    """Good pairs between them say that time has not jumped."""
+    pairs = Pairs(clean_walk().stamps.copy(), clean_walk().values)
+    for k, ahead_s in ((800, 11.0), (864, 10.0)):  # 0.07 s apart
+        pairs.stamps[k] += round(ahead_s * 1e9)
+    result = both("zupt", pairs)
+    assert result.counters["far_ahead"] == 2
+
+
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("wrong", ([], [("duplicate", 0.7), ("gap", 0.8), ("lost", 0.9)]))
 def test_interpreted_equals_compiled_to_the_bit(method, wrong):

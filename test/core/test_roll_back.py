@@ -15,8 +15,9 @@ from dualfoot_ros.core.constraints.idc import Idc, IdcConfig
 from dualfoot_ros.core.constraints.method import Request
 from dualfoot_ros.core.joint_estimate import Outcome
 from dualfoot_ros.core.kernel import layout as lay
+from dualfoot_ros.core.results.payloads import Reason
 from dualfoot_ros.core.session import notices
-from dualfoot_ros.core.session.lost_track import doubting
+from dualfoot_ros.core.session.walk_state import WalkState
 
 from .harness import Pairs, follow, open_session, quick_engine, standing_samples, state_bits, walk
 
@@ -79,18 +80,14 @@ def test_a_constraint_at_an_earlier_moment_equals_having_applied_it_then(back, s
         due[epoch] = due.get(epoch, 0) + 1
     for epoch, _ in follow(again, pairs, start):
         for _ in range(due.get(epoch, 0)):
-            apply = doubting(
-                again.space, again._walk.gait, Request(epoch, True, method.apply)
-            ).apply
-            apply(again._walk.estimate)
-            again._walk.roll_back._actions.append((epoch, apply))
+            again._walk.roll_back.apply([Request(epoch, False, method.apply)], (0, 1))
     assert state_bits(again.space.w) == state_bits(session.space.w)
 
 
 class Refusing(Late):
     """Rolls back each time, and then finds nothing to apply."""
 
-    def apply(self, estimate, separation=None):
+    def apply(self, estimate, target=None, heading=0.0, separation=None):
         return Outcome(np.zeros(1), np.ones((1, 1)), 0.0, accepted=False)
 
 
@@ -197,3 +194,25 @@ def test_one_false_phase_leaves_no_trace(runs, truth):
     assert len(set(np.flatnonzero(np.diff(phases)))) == len(truth) - 1
     assert as_if_known(session, before, phases, 0) == state_bits(session.space.w)
     assert as_if_known(session, before, seen, 0) != state_bits(session.space.w)
+
+
+@pytest.mark.parametrize("method", ("idc", "spacing_vector"))
+@pytest.mark.parametrize("std", (0.1, 0.01), ids=("fits", "often does not fit"))
+def test_what_the_kernel_does_at_once_is_what_is_done_step_by_step(method, std, monkeypatch):
+    name = f"{method}.{'distance' if method == 'idc' else 'spacing'}"
+    given = {"method": method, name: 0.15 if std > 0.05 else 0.05, f"{name}_std": std}
+    config, pairs = TrackerConfig.from_mapping({**given, **AS_IS}), walk(20.0)
+
+    def followed():
+        session, start = open_session(config, pairs)
+        events = [event for _, found in follow(session, pairs, start) for event in found]
+        return state_bits(session.space.w), events
+
+    bits, events = followed()
+    monkeypatch.setattr(WalkState, "end_in_kernel", lambda *_: None)
+    again, expected = followed()
+    constraints = [event for event in events if event.kind is EventKind.CONSTRAINT]
+    assert len(constraints) > 10
+    assert (std > 0.05) or any(event.reason is Reason.DID_NOT_FIT for event in constraints)
+    assert bits == again
+    assert repr(events) == repr(expected)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import DualFootTracker, EventKind, ImuPair, TrackerConfig, bias_after
+from dualfoot_ros.core.alignment import Alignment
 from dualfoot_ros.core.samples.series import stack_pairs
 from dualfoot_ros.simulation import Gait, WalkConfig, grade, simulate
 
@@ -157,3 +158,51 @@ def test_every_stand_of_the_walk_teaches_the_bias_anew():
     assert {event.foot for event in stood} == {"left", "right"} and len(stood) >= 4
     assert all(event.detail["gyro_bias_std"] < 2e-3 for event in stood)
     assert all(event.nis < 30.0 for event in stood)
+
+
+def content(alignment) -> tuple:
+    """Return all that an alignment holds but for the room behind its samples."""
+    feet = [
+        (watch.seen_ns, watch.quiet_s, watch.restarts, watch.complaint, held(watch), stood(watch))
+        for watch in alignment._watches
+    ]
+    waiting = [(stamp, row.tobytes()) for stamp, row in alignment._waiting]
+    return feet, waiting, alignment.rate.hz, alignment._since_ns, str(alignment._candidate)
+
+
+def held(watch) -> list:
+    sliders = watch._slider, watch._short
+    rows = [s._rows[s._stop - len(s._stamps) : s._stop].tobytes() for s in sliders]
+    return [(list(s._stamps), s._due_ns, row) for s, row in zip(sliders, rows, strict=True)]
+
+
+def stood(watch) -> tuple:
+    stand = watch.stand
+    return stand.count, stand.seconds, stand._mean, stand._spread, str(watch._still)
+
+
+@pytest.mark.parametrize("tremor", [0.002, 0.04])
+@pytest.mark.parametrize("size", [9, 37, 5000])
+def test_pairs_taken_many_at_once_leave_what_those_taken_one_by_one_leave(tremor, size):
+    walk = made(standing=7.0, gait=Gait(tremor=tremor))
+    config = TrackerConfig.from_mapping({"alignment.patience": 4.0})
+    stamps, values = walk.left.stamp_ns, stack_pairs(walk.left, walk.right)
+    alone, many = Alignment(config), Alignment(config)
+    k, together = 0, 0
+    while k < len(stamps):
+        start, taken = None, 0
+        if many.takes_many:
+            taken, start = many.add_all(stamps[k : k + size], values[k : k + size])
+        if taken == 0:
+            taken, start = 1, many.add(int(stamps[k]), values[k])
+        else:
+            together += taken
+        for row in range(k, k + taken):
+            expected = alone.add(int(stamps[row]), values[row])
+            assert expected is None or row == k + taken - 1
+        k += taken
+        assert content(many) == content(alone)
+        assert str(start) == str(expected)
+        if start is not None:
+            break
+    assert together > 100 and str(start.kind) == ("stand" if tremor < 0.01 else "restless_stand")

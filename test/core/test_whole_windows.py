@@ -81,8 +81,9 @@ def test_samples_taken_many_at_once_give_the_windows_of_those_taken_one_by_one(k
         expected.append((k, alone.add(int(stamps[k]), row)))
     at = 0
     for size in (3, 200, 1, 350, 600, 5000):
-        part = slice(at, at + size)
-        found += [(at + k, w) for k, w in mixed.add_all(stamps[part], values[part])]
+        ahead = mixed.look_ahead(stamps[at : at + 2 * size], values[at : at + 2 * size])
+        found += [(at + k, w) for k, w in mixed.windows(ahead) if k < size]
+        mixed.take(ahead, min(size, len(stamps) - at))  # of those that were looked at
         at += size
         for k in range(at, min(at + 20, len(stamps))):
             found.append((k, mixed.add(int(stamps[k]), values[k])))

@@ -7,6 +7,8 @@ import pytest
 
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.kernel import layout as lay
+from dualfoot_ros.core.results.row_store import RowStore
+from dualfoot_ros.core.samples.pair_series import PairSeries
 
 from .dense import AS_THE_PAPER, DenseFoot
 from .harness import open_session, walk
@@ -23,7 +25,7 @@ def settled_walk(config: TrackerConfig, seconds: float):
     space = session.space
     feet = [DenseFoot.start(config, space.w, foot) for foot in range(2)]
     lag = space.ring - 2
-    out = np.zeros((len(pairs), lay.OUT))
+    series, rows = PairSeries.of(*pairs.series()), RowStore(len(pairs))
     flags, states = {}, {}
 
     def keep(epoch: int) -> None:
@@ -32,7 +34,7 @@ def settled_walk(config: TrackerConfig, seconds: float):
             states[epoch] = space.snapshot(epoch + 1).copy()
 
     for k in range(start, len(pairs)):
-        for _ in session.steps(pairs.stamps, pairs.dts, pairs.values, (k, k + 1), out):
+        for _ in session.steps(series, (k, k + 1), rows):
             pass
         if space.epoch - lag >= 0:
             keep(space.epoch - lag)

@@ -31,3 +31,20 @@ def test_nothing_is_found_wrong_with_the_demo_walk():
         FindingKind.LONG_STRIDE,
         FindingKind.NO_STANCE,
     }
+
+
+STEPS = (FindingKind.LONG_STRIDE, FindingKind.NO_STANCE, FindingKind.MISSED_STANCES)
+
+
+@pytest.mark.parametrize(("feet", "hole_s"), [("both", 3.0), ("left", 3.0), ("left", 0.5)])
+def test_what_a_hole_does_to_the_steps_is_not_laid_to_the_stances(feet, hole_s):
+    made = simulate(WalkConfig(route="rectangle", rate=60.0), seed=1)
+    t = (made.left.stamp_ns - made.left.stamp_ns[0]) * 1e-9
+    kept = (t < 20.33) | (t > 20.33 + hole_s)
+    recording = Recording(made.left[kept], made.right[kept] if feet == "both" else made.right)
+    found = run(recording, options=RunOptions()).findings
+    steps = [each for each in found if each.kind in STEPS]
+    assert steps
+    for finding in steps:
+        assert f"{hole_s:.1f}" in finding.text and "samples are missing there" in finding.text
+        assert "stance.threshold" not in finding.remedy

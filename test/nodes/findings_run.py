@@ -25,6 +25,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Imu
 
 from dualfoot_ros.core import DualFootTracker, ImuPair, Refusal, Update
+from dualfoot_ros.core.results.context import Context
 from dualfoot_ros.drivers import CheckConfig, Sample, SensorCheck, State
 from dualfoot_ros.nodes.adapter.adapter_report import AdapterReport
 from dualfoot_ros.nodes.adapter.device import Device
@@ -321,7 +322,7 @@ def the_walk(stage):
     tracker.counters[Refusal.STANCES_WITHOUT_PRESSURE] += 1
     tracker.counters[Refusal.STANCES_WITHOUT_FIELD] += 1
     for stamp_ns in (2 * 10**12, 2 * 10**12 + 6 * 10**9):
-        report.add(Update(stamp_ns, "walking"))
+        report.add(Update(stamp_ns, Context("walking")))
     stage.now_s += 1.0
     stage.report(report.collect, graph=graph)
 

@@ -3,14 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable
+from typing import NamedTuple
 
 from ..config import TrackerConfig
 from ..samples.series import FloatArray, IntArray
 from .foot_stand import FootStand, FootStandstill
 from .window import Window, WindowSlider
+from .windows_ahead import WindowsAhead
 
 SHORTEST_S = 0.5  # of a stand that is used
+
+
+Take = Callable[[Window], None]
+
+
+class FootAhead(NamedTuple):
+    """Windows of a foot by the sample with which they end, and how each is taken."""
+
+    windows: dict[int, list[tuple[Take, Window]]]
+    sliders: tuple[tuple[WindowSlider, WindowsAhead], ...]
 
 
 class FootWatch:
@@ -49,10 +61,23 @@ class FootWatch:
         still = window.motion(config.alignment, config.gravity) is None
         self._still = window if still else None
 
-    def windows(self, stamps: IntArray, rows: FloatArray) -> Iterator[tuple[int, Window]]:
-        """Take finite samples (N, 6) of a stand that is refined; yield windows and their ends."""
-        self.seen_ns = int(stamps[-1])
-        return self._slider.add_all(stamps, rows)
+    def look_ahead(self, stamps: IntArray, rows: FloatArray) -> FootAhead:
+        """Return the windows among finite samples (N, 6) that follow; none is taken."""
+        sliders = (self._slider,) if self.refining else (self._short, self._slider)
+        aheads = [slider.look_ahead(stamps, rows) for slider in sliders]
+        found: dict[int, list[tuple[Take, Window]]] = {}
+        takes = (self.take,) if self.refining else (self._take_short, self.take)
+        for slider, ahead, take in zip(sliders, aheads, takes, strict=True):
+            for row, window in slider.windows(ahead):
+                found.setdefault(row, []).append((take, window))
+        return FootAhead(found, tuple(zip(sliders, aheads, strict=True)))
+
+    def take_all(self, ahead: FootAhead, stamps: IntArray, count: int) -> None:
+        """Take the first ``count`` of samples, whose windows have been taken."""
+        for slider, windows in ahead.sliders:
+            slider.take(windows, count)
+        if count:
+            self.seen_ns = int(stamps[count - 1])
 
     def take(self, window: Window) -> None:
         """Let a window be a part of the stand, or end it."""

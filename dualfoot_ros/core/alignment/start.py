@@ -9,7 +9,8 @@ the walk give the level, and the gyro bias is known as far as sensors of the kin
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Iterator, Mapping
+from contextlib import closing
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -23,7 +24,6 @@ from .foot_stand import UNKNOWN_BIAS_STD, FootStandstill, absent_foot
 from .foot_watch import FootWatch
 from .prior import BiasPrior
 from .sampling_rate import SamplingRate
-from .window import Window
 
 ABSENT_S = 2.0  # without samples, after which a start does without a foot
 UNKNOWN_BIAS = BiasPrior(np.zeros(3), UNKNOWN_BIAS_STD)
@@ -102,12 +102,19 @@ class Alignment:
         if self._candidate is None and self._without_stand is None:
             self._look_for_stances(stamp_ns, values)
         if self._look(stamp_ns, values):
-            self._consider(stamp_ns)
-            there = [w.quiet_s for w in self._watches if not self._absent(w, stamp_ns)]
-            if there and min(there) >= self._config.alignment.duration:
-                return self._start(StartKind.STAND, self._candidate)
+            start = self._start_of_stand(stamp_ns)
+            if start is not None:
+                return start
         waited = stamp_ns - self._since_ns >= self._config.alignment.patience * 1e9
         return self.finish() if waited and not self._awaits_foot(stamp_ns) else None
+
+    def _start_of_stand(self, stamp_ns: int) -> Start | None:
+        """Look at the stand when a window has ended; return the start when it is long enough."""
+        self._consider(stamp_ns)
+        there = [w.quiet_s for w in self._watches if not self._absent(w, stamp_ns)]
+        if there and min(there) >= self._config.alignment.duration:
+            return self._start(StartKind.STAND, self._candidate)
+        return None
 
     def finish(self) -> Start | None:
         """Return a start from what is there, when no more pairs will come."""
@@ -124,17 +131,67 @@ class Alignment:
 
     def refine_all(self, stamps: IntArray, values: FloatArray) -> Iterator[int]:
         """Take pairs (N, 12) of a stand as `refine` does; yield those that it returns True for."""
-        found: dict[int, list[tuple[FootWatch, Window]]] = {}
-        for foot, watch in enumerate(self._watches if len(stamps) else ()):
+        if len(stamps) == 0:
+            return
+        for watch in self._watches:
             watch.refining = True
-            rows = values[:, 6 * foot : 6 * foot + 6]
-            for row, window in watch.windows(stamps, rows):
-                found.setdefault(row, []).append((watch, window))
-        for row in sorted(found):
-            for watch, window in found[row]:
-                watch.take(window)
+        for row in self._windows_of(stamps, values):
             if self._is_longer():
                 yield row
+
+    def _windows_of(self, stamps: IntArray, values: FloatArray) -> Generator[int, None, None]:
+        """Take the windows of both feet in pairs (N, 12); yield the pairs with which they end.
+
+        All pairs up to that one are taken, or all of them at the end.
+        """
+        parts = [values[:, :6], values[:, 6:]]
+        aheads = [w.look_ahead(stamps, p) for w, p in zip(self._watches, parts, strict=True)]
+        taken = 0
+        try:
+            for row in sorted({row for ahead in aheads for row in ahead.windows}):
+                taken = row + 1
+                for watch, ahead in zip(self._watches, aheads, strict=True):
+                    watch.seen_ns = int(stamps[row])
+                    for take, window in ahead.windows.get(row, ()):
+                        take(window)
+                yield row
+            taken = len(stamps)
+        finally:
+            for watch, ahead in zip(self._watches, aheads, strict=True):
+                watch.take_all(ahead, stamps, taken)
+
+    @property
+    def takes_many(self) -> bool:
+        """Whether only windows matter of the pairs that follow, as `add_all` takes them."""
+        seen = all(watch.seen_ns is not None for watch in self._watches)
+        return seen and not (self._candidate is None and self._without_stand is None)
+
+    def add_all(self, stamps: IntArray, values: FloatArray) -> tuple[int, Start | None]:
+        """Take pairs (N, 12) as `add` does, no hole between them and both feet there.
+
+        Return how many were taken, none that could end the patience, and the start when there is
+        one: that of the last one taken.
+        """
+        assert self._since_ns is not None
+        patience_ns = self._config.alignment.patience * 1e9
+        count = int(np.searchsorted(stamps - self._since_ns, patience_ns))
+        stamps, values = stamps[:count], values[:count]
+        begin, start = 0, None
+        with closing(self._windows_of(stamps, values)) as ended:
+            for row in ended:
+                self._keep(stamps[begin : row + 1], values[begin : row + 1])
+                begin = row + 1
+                start = self._start_of_stand(int(stamps[row]))
+                if start is not None:
+                    return begin, start
+        self._keep(stamps[begin:], values[begin:])
+        return count, None
+
+    def _keep(self, stamps: IntArray, values: FloatArray) -> None:
+        """Keep pairs (N, 12) that wait for a start."""
+        for pair in zip(stamps.tolist(), values, strict=True):
+            self.rate.add(pair[0])
+            self._waiting.append(pair)
 
     def _is_longer(self) -> bool:
         """Return whether the stand has grown by a window's length since it was last asked."""

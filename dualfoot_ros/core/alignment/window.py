@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -11,9 +12,9 @@ import numpy as np
 
 from ..groups import AlignmentConfig
 from ..samples.series import FloatArray, IntArray
+from .windows_ahead import FEWEST_SAMPLES, WindowsAhead, window_begins, window_ends
 
 SLIDES = 25  # steps in which a window moves on by its length
-FEWEST_SAMPLES = 5  # of a window
 ROOM = 256  # samples, to begin with
 CORRELATION_S = 0.15  # time over which the angular rate of a standing foot is alike
 
@@ -120,22 +121,31 @@ class WindowSlider:
         block = self._rows[self._stop - len(stamps) : self._stop]
         return Window.of(block, stamp_ns, self._length_ns * 1e-9)
 
-    def add_all(self, stamps: IntArray, rows: FloatArray) -> Iterator[tuple[int, Window]]:
-        """Take samples (N, 6) with rising stamps (N,); yield the windows of `add` and their rows.
-
-        All samples are taken when the last window has been asked for.
-        """
+    def look_ahead(self, stamps: IntArray, rows: FloatArray) -> WindowsAhead:
+        """Return what would come of samples (N, 6) with rising stamps (N,); none is taken."""
         held = len(self._stamps)
         whole_ns = np.concatenate([np.array(self._stamps, dtype=np.int64), stamps])
         whole = np.concatenate([self._rows[self._stop - held : self._stop], rows])
-        begins = np.searchsorted(whole_ns, whole_ns - self._length_ns, side="right")
-        full = np.diff(begins, prepend=0) > 0
-        full &= np.arange(len(whole_ns)) - begins + 1 >= FEWEST_SAMPLES
-        for k in (held + np.flatnonzero(full[held:])).tolist():
-            if self._is_due(int(whole_ns[k])):
-                block = whole[begins[k] : k + 1]
-                yield k - held, Window.of(block, int(whole_ns[k]), self._length_ns * 1e-9)
-        self._hold(whole_ns[begins[-1] :].tolist(), whole[begins[-1] :])
+        begins, full = window_begins(whole_ns, self._length_ns)
+        full[:held] = False
+        ends, dues_ns = window_ends(whole_ns, full, self._step_ns, self._due_ns)
+        return WindowsAhead(held, whole_ns, whole, begins, ends, dues_ns)
+
+    def windows(self, ahead: WindowsAhead) -> Iterator[tuple[int, Window]]:
+        """Yield the windows that end among samples, and which of them is their last."""
+        seconds = self._length_ns * 1e-9
+        for k, mean, std in zip(ahead.ends, *ahead.moments(), strict=True):
+            yield k - ahead.held, Window(mean, std, int(ahead.stamp_ns[k]), seconds)
+
+    def take(self, ahead: WindowsAhead, count: int) -> None:
+        """Take the first ``count`` of samples, as if they had come one by one."""
+        if count == 0:
+            return
+        stop = ahead.held + count
+        begin = ahead.begins[stop - 1]
+        self._hold(ahead.stamp_ns[begin:stop].tolist(), ahead.rows[begin:stop])
+        ended = bisect_left(ahead.ends, stop)
+        self._due_ns = ahead.dues_ns[ended - 1] if ended else self._due_ns
 
     def _hold(self, stamps: list[int], rows: FloatArray) -> None:
         """Hold these samples (N, 6) in place of all others."""

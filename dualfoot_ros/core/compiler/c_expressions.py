@@ -69,7 +69,10 @@ class ExpressionWriter:
         if kind is Kind.ROWS and isinstance(node.slice, ast.Tuple):
             row, column = (self._written(each)[0] for each in node.slice.elts)
             return f"{array}.x[{array}.columns * ({row}) + {column}]", REAL
-        return f"{array}[{self._written(node.slice)[0]}]", REAL if kind is Kind.REALS else INTEGER
+        return (
+            f"{array}[{self._written(node.slice)[0]}]",
+            INTEGER if kind in {Kind.INTEGERS, Kind.BYTES} else REAL,
+        )
 
     def _binop(self, node: ast.BinOp) -> Typed:
         (left, a), (right, b) = self._written(node.left), self._written(node.right)

@@ -17,6 +17,8 @@ from .kernel_function import KernelFunction
 PREFIX = "dualfoot_"
 HEAD = object.__basicsize__  # bytes, of every object of Python
 DATA, EXTENTS = HEAD, HEAD + 16  # where an array of numpy has its pointers
+RANK, STRIDES, NUMBERS, FLAGS = HEAD + 8, HEAD + 24, HEAD + 40, HEAD + 48
+TYPE, ALIGNED = HEAD - 8, 0x100  # of every object; among the flags
 
 PRELUDE = f"""\
 #include <math.h>
@@ -32,6 +34,8 @@ extern void *PyFloat_FromDouble(double);
 extern void *Py_BuildValue(const char *, ...);
 extern void *PyExc_TypeError;
 extern void PyErr_SetString(void *, const char *);
+extern void *PyErr_Occurred(void);
+extern void PyErr_Clear(void);
 
 /* as in Python: towards less, and as numpy has it: zero where there is nothing to divide by */
 static inline int64_t quotient(int64_t a, int64_t b)
@@ -61,6 +65,27 @@ static inline Rows rows(void *array)
     const int64_t *extents = *(int64_t **)((char *)array + {EXTENTS});
     return (Rows){{data(array), extents[1]}};
 }}
+
+/* what an object holds, so many bytes from its start */
+#define HELD(type, object, place) (*(type *)((char *)(object) + (place)))
+
+/* whether an object is an array of 12 double, one after the other; the second one is of double */
+static inline int is_sample(void *given, void *doubles)
+{{
+    return HELD(void *, given, {TYPE}) == HELD(void *, doubles, {TYPE})
+        && HELD(void *, given, {NUMBERS}) == HELD(void *, doubles, {NUMBERS})
+        && HELD(int, given, {RANK}) == 1
+        && HELD(int64_t *, given, {EXTENTS})[0] == 12
+        && HELD(int64_t *, given, {STRIDES})[0] == sizeof(double)
+        && (HELD(int, given, {FLAGS}) & {ALIGNED});
+}}
+
+static inline int is_integer(void *given)
+{{
+    if (PyLong_AsLongLong(given) != -1 || !PyErr_Occurred()) return 1;
+    PyErr_Clear();
+    return 0;
+}}
 """
 
 TAKEN = {
@@ -69,8 +94,10 @@ TAKEN = {
     Kind.INTEGERS: "data",
     Kind.REALS: "data",
     Kind.ROWS: "rows",
+    Kind.SAMPLE: "data",
     Kind.BYTES: "data",
 }
+LOOKED_AT = {Kind.INTEGER: "is_integer(a[{k}])", Kind.SAMPLE: "is_sample(a[{k}], a[0])"}
 MADE = {Kind.INTEGER: "PyLong_FromLongLong", Kind.REAL: "PyFloat_FromDouble"}
 NONE = 'return Py_BuildValue("");'
 ADAPTER = """\
@@ -79,7 +106,7 @@ void *{name}(void *self, void *const *a, int64_t count)
     if (count != {count}) {{
         PyErr_SetString(PyExc_TypeError, "{name} takes {count} arguments");
         return 0;
-    }}
+    }}{looked_at}
     {returned}
 }}
 """
@@ -131,7 +158,20 @@ def _adapter(name: str, entry: Entry) -> str:
     """Return the function that Python calls."""
     call = f"{name}({', '.join(_unpacked(entry.parameters))})"
     returned = f"return {MADE[entry.result]}({call});" if entry.result else f"{call};\n    {NONE}"
-    return ADAPTER.format(name=PREFIX + name, count=len(entry.parameters), returned=returned)
+    return ADAPTER.format(
+        name=PREFIX + name,
+        count=len(entry.parameters),
+        looked_at=_looked_at(entry.parameters),
+        returned=returned,
+    )
+
+
+def _looked_at(kinds: tuple[Kind, ...]) -> str:
+    """Return what an entry that takes a sample from outside does first."""
+    if Kind.SAMPLE not in kinds:
+        return ""
+    checks = [LOOKED_AT[kind].format(k=k) for k, kind in enumerate(kinds) if kind in LOOKED_AT]
+    return f"\n    if (!({' && '.join(checks)})) return PyLong_FromLongLong(0);"
 
 
 def _unpacked(kinds: tuple[Kind, ...]) -> Iterator[str]:

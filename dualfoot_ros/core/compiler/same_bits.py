@@ -30,29 +30,25 @@ def same_bits(functions: Calls) -> bool:
 def _computed(functions: Calls) -> Iterator[bytes]:
     """Yield what every entry makes of the same numbers."""
     w, n = _numbers()
-    out, samples = np.zeros((EPOCHS, lay.OUT)), _walk()
-    ring, stamps, dts = np.zeros(RING, dtype=np.int64), np.arange(EPOCHS), np.full(EPOCHS, 0.01)
-    at = 0
+    out, samples, ring = np.zeros((EPOCHS, lay.OUT)), _walk(), np.zeros(RING, dtype=np.int64)
+    stamps, parts = 10**7 * np.arange(EPOCHS), [samples[:, k : k + 3].copy() for k in (0, 3, 6, 9)]
+    rows = [np.zeros((EPOCHS, columns)) for columns in (lay.KEPT, lay.KEPT, 2, *(6,) * 7)]
+    kept = *rows[:3], -1.0, 1, *rows[3:]
+    at = 1
     while at < EPOCHS:
-        at = functions["advance"](w, n, ring, stamps, dts, samples, at, EPOCHS, out)
-    yield w.tobytes() + n.tobytes() + out.tobytes() + ring.tobytes()
-    functions["set_flags"](n, 1, 0, EPOCHS - 1, 1)
+        at = functions["advance"](w, n, ring, stamps, *parts, at, EPOCHS, *kept)
+    functions["keep"](w, n, 0, *kept)
+    yield w.tobytes() + n.tobytes() + ring.tobytes() + b"".join(each.tobytes() for each in rows)
+    functions["set_flags"](n, 1, 0, EPOCHS - 2, 1)
     functions["restore"](w, n, 3)
-    functions["rerun"](w, n, 3, EPOCHS - 1)
+    functions["rerun"](w, n, 3, EPOCHS - 2)
     functions["emit"](w, n, out, 0)
-    told = np.zeros((1, lay.TOLD))
-    told[0, : lay.OUT] = out[0]
-    numbers = functions["tell"](w, told)
-    yield np.append(told, numbers).tobytes()
-    done = functions["step"](w, n, ring, 7, 0.01, samples[0], told)
-    yield np.append(told, done).tobytes() + ring.tobytes()
+    yield from _told(functions, w, n, ring, samples)
     yield w.tobytes() + n.tobytes() + out.tobytes()
     for kind in (None, lay.KNOW_ALL, lay.KNOW_COMMON, lay.KEEP_PLACE, lay.KNOW_NOTHING):
         yield _updated(functions, w, kind)
     yield from _constrained(functions, w)
-    x = np.zeros(lay.X_SIZE)
-    nis = functions["landing"](w, n, x, 1, 0.06)
-    yield np.append(x, nis).tobytes()
+    yield from _ended(functions, w, n)
     for foot in range(2):
         functions["turn"](w, 0, foot, 0.6, 0.8, np.array([0.3, 0.7]), np.array([1.0, 2.0, 0.1]))
     yield w.tobytes()
@@ -60,6 +56,21 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     x[:12] = [0.9, 0.5, -0.1, 0.4, 0.1, 0.02, 0.1, 0.3, 0.05, 0.02, 0.05, 0.2]
     functions["closest"](x, 0.7, 0.05)
     yield x.tobytes()
+
+
+def _told(
+    functions: Calls, w: FloatArray, n: IntArray, ring: IntArray, samples: FloatArray
+) -> Iterator[bytes]:
+    """Yield what is told of the newest epoch, and of two more."""
+    told = np.zeros((1, lay.TOLD))
+    functions["emit"](w, n, told, 0)
+    numbers = functions["tell"](w, told)
+    yield np.append(told, numbers).tobytes()
+    done = functions["step"](w, n, ring, 7, 0.01, samples[0], told)
+    yield np.append(told, done).tobytes() + ring.tobytes()
+    n[lay.N_LONGEST] = 10**8
+    done = functions["take_pair"](w, n, ring, 10**7, samples[1], told)
+    yield np.append(told, done).tobytes() + ring.tobytes()
 
 
 def _updated(functions: Calls, w: FloatArray, kind: int | None) -> bytes:
@@ -93,6 +104,29 @@ def _constrained(functions: Calls, w: FloatArray) -> Iterator[bytes]:
     for _ in range(2):
         functions["learn_spacing"](learnt, 0.3, 0.2, 0.1, 0.15, 0.6, 0.8)
     yield learnt.tobytes()
+
+
+def _ended(functions: Calls, w: FloatArray, n: IntArray) -> Iterator[bytes]:
+    """Yield what is found of a landing, and what every rule makes of the end of its stance."""
+    functions["set_flags"](n, 0, 10, 20, 0)
+    right = lay.N_FOOT + lay.N_STRIDE
+    n[right + lay.N_START], n[right + lay.N_LEAVE] = 12, 19
+    x, learnt = np.zeros(lay.X_SIZE), np.zeros(lay.L_SIZE)
+    nis = functions["landing"](w, n, x, 1, 0.06)
+    yield np.append(x, nis).tobytes()
+    learnt[lay.L_STATE], learnt[lay.L_COVARIANCE] = 0.01, 0.01
+    for kind, gate, since in (
+        (lay.R_SPACING, 1e9, 0),
+        (lay.R_DISTANCE, 1e9, 0),
+        (lay.R_SPACING, 1e-9, 0),
+        (lay.R_DISTANCE, 1e-9, 0),
+        (lay.R_SPACING, 1e9, 20),
+    ):
+        rule = np.array([kind, 0.5, 1.0, 0.08, 0.15, 0.0, lay.KNOW_COMMON, 3.0, 1.0])
+        done = functions["end_stance"](w, n, x, rule, learnt, 1, 0.6, 0.8, gate, since)
+        distance = functions["distance_after"](w, x)
+        yield np.append(x, (done, distance)).tobytes() + learnt.tobytes()
+        yield w.tobytes() + n.tobytes()
 
 
 def _numbers() -> tuple[FloatArray, IntArray]:

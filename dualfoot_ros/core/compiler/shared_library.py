@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .c_library import DATA, EXTENTS, PREFIX
+from .c_library import DATA, EXTENTS, FLAGS, NUMBERS, PREFIX, RANK, STRIDES, TYPE
 from .entries import Entry
 
 COMPILER = "cc"
@@ -107,13 +107,22 @@ def load_library(path: Path, entries: Mapping[str, Entry]) -> Functions | None:
 
 
 def _knows_arrays() -> bool:
-    """Return whether an array of numpy has its address and extents where they are looked for."""
+    """Return whether an array of numpy has all that is looked for in its place."""
     array = np.zeros((3, 5))
-    found = ctypes.c_void_p.from_address(id(array) + DATA).value
-    extents = ctypes.c_void_p.from_address(id(array) + EXTENTS).value
-    if found != array.ctypes.data or extents is None:
+
+    def held(kind: type[Any], place: int) -> Any:
+        return kind.from_address(id(array) + place).value
+
+    pointers = [held(ctypes.c_void_p, place) for place in (DATA, TYPE, NUMBERS)]
+    if pointers != [array.ctypes.data, id(np.ndarray), id(array.dtype)]:
         return False
-    return tuple((ctypes.c_int64 * 2).from_address(extents)) == array.shape
+    if (held(ctypes.c_int, RANK), held(ctypes.c_int, FLAGS)) != (2, array.flags.num):
+        return False
+    pairs = [held(ctypes.c_void_p, place) for place in (EXTENTS, STRIDES)]
+    if None in pairs:
+        return False
+    found = [tuple((ctypes.c_int64 * 2).from_address(place)) for place in pairs]
+    return found == [array.shape, array.strides]
 
 
 def _function(library: ctypes.PyDLL, name: str) -> Callable[..., Any]:

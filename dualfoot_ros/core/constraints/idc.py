@@ -22,7 +22,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..joint_estimate import JointEstimate, relative_row
-from ..parameters import parameter
+from ..kernel import layout as lay
+from ..parameters import Parameters, parameter
+from .at_passing import rule_of
 from .distance_solvers import Matrix, Vector, iterate
 from .minimum_moment import AtMinimumDistance, MomentConfig
 
@@ -43,6 +45,30 @@ class Idc(AtMinimumDistance):
     name = "idc"
     config_class = IdcConfig
     config: IdcConfig
+
+    def __init__(self, config: IdcConfig) -> None:
+        """Use ``config``."""
+        super().__init__(config)
+        self._make_rule()
+
+    def retune(self, config: Parameters) -> None:
+        """Go on with other weights of ``config``."""
+        super().retune(config)
+        self._make_rule()
+
+    def _make_rule(self) -> None:
+        own = type(self) is Idc  # another one may say something else at a stance
+        config = self.config
+        numbers = {
+            lay.R_KIND: lay.R_DISTANCE,
+            lay.R_SHARE: config.kappa,
+            lay.R_LONGEST_S: config.max_stance,
+            lay.R_STD: config.distance_std,
+            lay.R_ROWS: self.dimensions,
+            lay.R_LEARNS: self.spacing.learner is not None,
+        }
+        at_moment = own and self.is_exact and config.apply_at == "moment"
+        self.rule = rule_of(numbers) if at_moment else None
 
     @property
     def is_exact(self) -> bool:

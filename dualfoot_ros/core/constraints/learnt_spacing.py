@@ -38,7 +38,7 @@ class SpacingLearner:
 
     def __init__(self) -> None:
         """Start from the prior."""
-        x = self._x = np.zeros(lay.L_SIZE)
+        x = self.numbers = np.zeros(lay.L_SIZE)
         x[lay.L_STATE] = PRIOR_M
         stds = (PRIOR_STD_M, PLACEMENT_STD_M, PLACEMENT_STD_M, STRIDE_STD_M)
         np.fill_diagonal(self._covariance(), np.square(stds))
@@ -46,7 +46,7 @@ class SpacingLearner:
 
     def _covariance(self) -> FloatArray:
         """Return the covariance (4, 4) m^2 as a view."""
-        return self._x[lay.L_COVARIANCE : lay.L_BEGUN].reshape(4, 4)
+        return self.numbers[lay.L_COVARIANCE : lay.L_BEGUN].reshape(4, 4)
 
     def use(self, engine: Engine) -> None:
         """Go on with another form of the kernel; it is interpreted unless one is given."""
@@ -55,12 +55,12 @@ class SpacingLearner:
     @property
     def spacing_m(self) -> float:
         """The spacing."""
-        return self._x.item(lay.L_STATE)
+        return self.numbers.item(lay.L_STATE)
 
     @property
     def std_m(self) -> float:
         """Its standard deviation."""
-        return math.sqrt(self._x.item(lay.L_COVARIANCE))
+        return math.sqrt(self.numbers.item(lay.L_COVARIANCE))
 
     def add(self, before: Sequence[float], after: Sequence[float], heading: float) -> None:
         """Take one passing: separations m before and after its constraint, heading in rad.
@@ -69,11 +69,11 @@ class SpacingLearner:
         """
         engine = self._engine or interpreted()
         ahead = math.cos(heading), math.sin(heading)
-        engine.learn_spacing(self._x, before[0], before[1], after[0], after[1], *ahead)
+        engine.learn_spacing(self.numbers, before[0], before[1], after[0], after[1], *ahead)
 
     def restart(self) -> None:
         """Keep the spacing but forget the placement: the track was turned or moved."""
-        x, P = self._x, self._covariance()
+        x, P = self.numbers, self._covariance()
         x[lay.L_BEGUN] = 0.0
         x[lay.L_STATE + 1 : lay.L_STATE + 3] = 0.0
         P[1:3, :] = P[:, 1:3] = 0.0
@@ -81,12 +81,20 @@ class SpacingLearner:
 
 
 class Spacing:
-    """The spacing a method constrains to: as given, or as learnt so far."""
+    """The spacing a method constrains to: as given, or as learnt so far.
+
+    Attributes
+    ----------
+    learner : what learns it, None where it was given
+    numbers : (L_SIZE,) the array of the learner; the spacing alone where it was given
+    """
 
     def __init__(self, given_m: float) -> None:
         """Use ``given_m``, or learn when it is zero."""
-        self._given = given_m
         self.learner = SpacingLearner() if given_m == 0.0 else None
+        self.numbers = np.zeros(lay.L_SIZE) if self.learner is None else self.learner.numbers
+        if given_m != 0.0:
+            self.numbers[lay.L_STATE] = given_m
 
     def use(self, engine: Engine) -> None:
         """Learn with another form of the kernel."""
@@ -101,7 +109,7 @@ class Spacing:
     @property
     def value_m(self) -> float:
         """The spacing to constrain to now."""
-        return self.learner.spacing_m if self.learner else self._given
+        return self.numbers.item(lay.L_STATE)
 
     def note(self, outcome: Outcome) -> None:
         """Learn from a constraint that was applied, or found not to be needed."""

@@ -16,8 +16,8 @@ from ..joint_estimate import JointEstimate, Outcome
 from ..kernel import layout as lay
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit
-from .distance_solvers import norm
 from .method import Gait, Method, Request
+from .minimum_moment import nis_of
 
 
 @dataclass(frozen=True)
@@ -59,9 +59,9 @@ class MaxDistance(Method):
     def apply(self, estimate: JointEstimate) -> Outcome:
         """Project the joint state onto |r| = bound."""
         bound, std = self.config.bound, self.config.bound_std
-        exceeds, found = estimate.constrain_distance(bound, std, solves=True)
-        error, s = found[lay.X_Y], found[lay.X_S]
-        after = norm(found[lay.X_AFTER : lay.X_DISTANCE]) if exceeds else None
-        nis = error * error / s if s > 0.0 else float("nan")
+        now = (False, 0.0, 0.0, 0.0)  # the separation is that of now
+        exceeds, found = estimate.act("constrain_distance", bound, std, True, *now)
+        after = found[lay.X_DISTANCE_AFTER] if exceeds else None
         limit = DistanceLimit(found[lay.X_DISTANCE], bound, after)
-        return Outcome(np.array([error]), np.array([[s]]), nis, exceeds, limit)
+        innovation, s = np.array([found[lay.X_Y]]), np.array([[found[lay.X_S]]])
+        return Outcome(innovation, s, nis_of(found), exceeds != 0.0, limit)

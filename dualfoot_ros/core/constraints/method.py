@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import ClassVar, NamedTuple, Protocol
 
 from ..joint_estimate import JointEstimate, Outcome
+from ..kernel.at_stances.stance_end import share_of_stance
 from ..parameters import Parameters
 from ..results.events import EventKind
 from ..samples.series import FloatArray
@@ -37,7 +38,7 @@ class StancePhase(NamedTuple):
 
     def moment(self, share: float) -> int:
         """Return the epoch at a share of the stance: eq. (31) of Liu et al. 2023 for kappa."""
-        return round((1.0 - share) * self.first + share * self.last - self.lag)
+        return share_of_stance(self.first, self.last, share, self.lag)
 
 
 class Request(NamedTuple):

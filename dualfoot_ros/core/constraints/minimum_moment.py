@@ -17,9 +17,10 @@ from ..joint_estimate import JointEstimate, Outcome
 from ..kernel import layout as lay
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit, Passing, Reason
+from .at_passing import AtPassing
 from .distance_solvers import Matrix, Vector, norm
 from .learnt_spacing import Spacing
-from .method import Gait, Method, Request, StancePhase
+from .method import Gait, Request, StancePhase
 
 
 @dataclass(frozen=True)
@@ -53,11 +54,10 @@ class MomentConfig(Parameters):
     )
 
 
-class AtMinimumDistance(Method):
+class AtMinimumDistance(AtPassing):
     """Asks for one constraint at the minimum-distance moment of every stance of a walk."""
 
     config: MomentConfig
-    spacing: Spacing
 
     def __init__(self, config: MomentConfig) -> None:
         """Use ``config``."""
@@ -77,14 +77,6 @@ class AtMinimumDistance(Method):
         if self.config.apply_at == "moment" and norm(separation) > target:
             return (Request(moment, True, constrain),)
         return (Request(moment, False, partial(constrain, separation=separation)),)
-
-    def note(self, outcome: Outcome) -> None:
-        """Learn the spacing, if it was not given."""
-        self.spacing.note(outcome)
-
-    def moved(self, up_m: float, turned: float) -> None:
-        """Learn the placement anew."""
-        self.spacing.moved()
 
     def moment(self, stance: StancePhase, gait: Gait) -> int | None:
         """Return the epoch of the minimum distance, None when the stance is no step."""
@@ -106,24 +98,39 @@ class AtMinimumDistance(Method):
         goes into the outcome.
         """
         target = self.spacing.value_m if target is None else target
-        exceeds, found = estimate.constrain_distance(
-            target, self.config.distance_std, solves=self.is_exact, separation=separation
+        given = (0.0, 0.0, 0.0) if separation is None else separation
+        exceeds, found = estimate.act(
+            "constrain_distance",
+            target,
+            self.config.distance_std,
+            self.is_exact,
+            separation is not None,
+            *given,
         )
-        r, error, s = found[lay.X_BEFORE : lay.X_NOW], found[lay.X_Y], found[lay.X_S]
+        if exceeds and not self.is_exact:
+            r = found[lay.X_BEFORE : lay.X_NOW]
+            self.correct(estimate, r, covariance_of(found), target)
+            distance, moved = estimate.act("distance_after")
+            found[lay.X_AFTER : lay.X_DISTANCE] = moved[lay.X_AFTER : lay.X_DISTANCE]
+            found[lay.X_DISTANCE_AFTER] = distance
+        return self.outcome(estimate, found, target, heading)
+
+    def outcome(
+        self, estimate: JointEstimate, found: list[float], target: float, heading: float
+    ) -> Outcome:
+        """Return what came of a constraint, of what the kernel has ``found``."""
+        r, error = found[lay.X_BEFORE : lay.X_NOW], found[lay.X_Y]
         after, distance_after, reason = r, None, None
+        exceeds = found[lay.X_EXCEEDS] != 0.0
         if exceeds:
-            if not self.is_exact:
-                self.correct(estimate, r, covariance_of(found), target)
-            then = estimate.relative_position()
-            now = found[lay.X_NOW : lay.X_AFTER]
-            after = [x + (b - a) for x, a, b in zip(r, now, then, strict=True)]
-            distance_after = norm(then)
+            after = found[lay.X_AFTER : lay.X_DISTANCE]
+            distance_after = found[lay.X_DISTANCE_AFTER]
         else:
             reason = Reason.DISTANCE_WITHIN_C0 if error <= 0.0 else Reason.NO_UNCERTAINTY
         limit = DistanceLimit(found[lay.X_DISTANCE], target, distance_after)
-        nis = error * error / s if s > 0.0 else math.nan
         passing = Passing(limit, heading, r, after)
-        return Outcome(np.array([error]), np.array([[s]]), nis, exceeds, passing, reason)
+        S = np.array([[found[lay.X_S]]])
+        return Outcome(np.array([error]), S, nis_of(found), exceeds, passing, reason)
 
     @property
     def is_exact(self) -> bool:
@@ -133,6 +140,12 @@ class AtMinimumDistance(Method):
     def correct(self, estimate: JointEstimate, r: Vector, p: Matrix, target: float) -> None:
         """Bring ``estimate`` to ``target`` m; ``r`` (3,) is the separation, ``p`` its (3, 3)."""
         raise AssertionError(f"{type(self).__name__} says what a constraint does")
+
+
+def nis_of(found: Sequence[float]) -> float:
+    """Return the NIS of the distance, no number where the kernel has found none."""
+    nis = found[lay.X_NIS]
+    return nis if nis >= 0.0 else math.nan
 
 
 def covariance_of(found: Sequence[float]) -> Matrix:

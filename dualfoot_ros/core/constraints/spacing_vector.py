@@ -22,8 +22,10 @@ from ..joint_estimate import LEFT_ALONE, JointEstimate, Outcome
 from ..kernel import layout as lay
 from ..parameters import Parameters, parameter
 from ..results.payloads import DistanceLimit, Passing
+from ..samples.series import FloatArray
+from .at_passing import AtPassing, rule_of
 from .learnt_spacing import Spacing
-from .method import Gait, Method, Request, StancePhase
+from .method import Gait, Request, StancePhase
 from .varying_distance import feet_adjacent
 
 
@@ -76,27 +78,46 @@ class SpacingVectorConfig(Parameters):
     )
 
 
-class SpacingVector(Method):
+class SpacingVector(AtPassing):
     """Asks for the spacing vector at the middle of every stance of a walk."""
 
     name = "spacing_vector"
     config_class = SpacingVectorConfig
     config: SpacingVectorConfig
 
-    spacing: Spacing
-
     def __init__(self, config: SpacingVectorConfig) -> None:
         """Use ``config``."""
-        self.config, self.dimensions = config, rows_of(config)
         self.spacing = Spacing(config.spacing)
         self.memory_s = config.max_stance
+        self._use(config)
 
     def retune(self, config: Parameters) -> None:
         """Go on with ``config``; a spacing that has changed is used, or learnt, from here on."""
         assert isinstance(config, SpacingVectorConfig)
         if config.spacing != self.config.spacing:
             self.spacing = Spacing(config.spacing)
+        self._use(config)
+
+    def _use(self, config: SpacingVectorConfig) -> None:
         self.config, self.dimensions = config, rows_of(config)
+        own = type(self) is SpacingVector  # another one may say something else at a stance
+        self.rule = self._rule() if own and config.moment == "share" else None
+
+    def _rule(self) -> FloatArray:
+        config = self.config
+        return rule_of(
+            {
+                lay.R_KIND: lay.R_SPACING,
+                lay.R_SHARE: config.share,
+                lay.R_LONGEST_S: config.max_stance,
+                lay.R_STD: config.spacing_std,
+                lay.R_HEIGHT_STD: config.height_std,
+                lay.R_LATERAL: config.variant == "lateral",
+                lay.R_LEFT_ALONE: LEFT_ALONE[config.heading_correction],
+                lay.R_ROWS: self.dimensions,
+                lay.R_LEARNS: self.spacing.learner is not None,
+            }
+        )
 
     def on_stance_end(self, stance: StancePhase, gait: Gait) -> Sequence[Request]:
         """Return the constraint of a stance that was a step."""
@@ -114,42 +135,42 @@ class SpacingVector(Method):
             moment = feet_adjacent(gait, other, range(swing[0], swing[-1] + 1))
         if not gait.remembers(moment) or gait.in_stance(other, moment):
             return ()
-        spacing = self.spacing.value_m
-        constrain = partial(self.apply, heading=stance.heading, spacing=spacing)
+        constrain = partial(self.apply, target=self.spacing.value_m, heading=stance.heading)
         return (Request(moment, True, constrain),)
 
-    def note(self, outcome: Outcome) -> None:
-        """Learn the spacing, if it was not given."""
-        self.spacing.note(outcome)
-
-    def moved(self, up_m: float, turned: float) -> None:
-        """Learn the placement anew."""
-        self.spacing.moved()
-
     def apply(
-        self, estimate: JointEstimate, heading: float, spacing: float | None = None
+        self, estimate: JointEstimate, heading: float, target: float | None = None
     ) -> Outcome:
-        """Project onto eq. (9), or onto its component across ``heading`` (rad), and in height."""
+        """Project onto eq. (9), or onto its component across ``heading`` (rad), and in height.
+
+        ``target`` is the spacing (m), that of now unless it is given.
+        """
         config = self.config
-        spacing = self.spacing.value_m if spacing is None else spacing
-        nis, found = estimate.act(
+        target = self.spacing.value_m if target is None else target
+        _, found = estimate.act(
             "constrain_spacing",
             math.cos(heading),
             math.sin(heading),
-            spacing,
+            target,
             config.spacing_std,
             config.height_std,
             config.variant == "lateral",
             LEFT_ALONE[config.heading_correction],
         )
+        return self.outcome(estimate, found, target, heading)
+
+    def outcome(
+        self, estimate: JointEstimate, found: list[float], target: float, heading: float
+    ) -> Outcome:
+        """Return what came of a constraint, of what the kernel has ``found``."""
         passing = Passing(
-            DistanceLimit(found[lay.X_DISTANCE], spacing),
+            DistanceLimit(found[lay.X_DISTANCE], target),
             heading,
             found[lay.X_BEFORE : lay.X_BEFORE + 3],
             found[lay.X_AFTER : lay.X_AFTER + 3],
             found[lay.X_LATERAL],
         )
-        return Outcome(*estimate.measured(self.dimensions), nis, True, passing)
+        return Outcome(*estimate.measured(self.dimensions), found[lay.X_NIS], True, passing)
 
 
 def rows_of(config: SpacingVectorConfig) -> int:

@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -177,7 +177,7 @@ def bounded(
     payload = Passing(
         limit, heading, before, estimate.relative_position(), lateral if passing else None
     )
-    return replace(outcome, payload=payload)
+    return outcome._replace(payload=payload)
 
 
 def feet_adjacent(gait: Gait, foot: int, epochs: range) -> int:

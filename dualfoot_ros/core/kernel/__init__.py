@@ -1,7 +1,7 @@
 """The filter's kernel: one Python source on flat arrays, made to be compiled as it stands."""
 
 from . import layout
-from .engine import ENTRIES, MODULES, Engine, interpreted, kernel_functions
+from .engine import ENTRIES, MODULES, Engine, interpreted, kernel_functions, looked_at
 from .workspace import Workspace, joint_covariance
 
 __all__ = [
@@ -13,4 +13,5 @@ __all__ = [
     "joint_covariance",
     "kernel_functions",
     "layout",
+    "looked_at",
 ]

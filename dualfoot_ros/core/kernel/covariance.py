@@ -16,7 +16,6 @@ from .layout import (
     E_ATT,
     E_BA,
     E_BG,
-    E_POS,
     E_VEL,
     PLACE,
     PLL,
@@ -28,9 +27,11 @@ from .layout import (
     ROWS_BG,
     ROWS_POS,
     ROWS_VEL,
+    S_A,
     S_CDT,
     S_SF,
 )
+from .tiles import mirror, turn_back, turn_over
 
 
 def add_noise(w, block, dt):
@@ -99,74 +100,22 @@ def apply_transition(w, block, dt):
         w[p + ROWS_BA + 2 * ROW] = m * b2
 
 
-def velocity_after(w, row, k):
-    """Return what a row times Phi' has at velocity ``k``."""
-    one = (k + 1) % 3
-    two = (k + 2) % 3
-    c = S_CDT + 3 * k
-    return (
-        w[row + E_VEL + k]
-        + (w[S_SF + one] * w[row + E_ATT + two] - w[S_SF + two] * w[row + E_ATT + one])
-        + (w[c] * w[row + E_BA] + w[c + 1] * w[row + E_BA + 1] + w[c + 2] * w[row + E_BA + 2])
-    )
-
-
-def attitude_after(w, row, k):
-    """Return what a row times Phi' has at attitude ``k``."""
-    c = S_CDT + 3 * k
-    return w[row + E_ATT + k] - (
-        w[c] * w[row + E_BG] + w[c + 1] * w[row + E_BG + 1] + w[c + 2] * w[row + E_BG + 2]
-    )
-
-
 def apply_from_right(w, block, dt):
-    """Multiply the 15x15 block at ``block`` by Phi' from the right, in its place.
-
-    What an element needs besides itself comes after it in its row.
-    """
-    m = 1.0 - dt * w[C_BIAS_RATE]
-    block &= PLACE
-    for i in range(15):
-        row = block + ROW * i
-        for j in range(3):
-            w[row + E_POS + j] += dt * w[row + E_VEL + j]
-        x, y, z = velocity_after(w, row, 0), velocity_after(w, row, 1), velocity_after(w, row, 2)
-        w[row + E_VEL] = x
-        w[row + E_VEL + 1] = y
-        w[row + E_VEL + 2] = z
-        x, y, z = attitude_after(w, row, 0), attitude_after(w, row, 1), attitude_after(w, row, 2)
-        w[row + E_ATT] = x
-        w[row + E_ATT + 1] = y
-        w[row + E_ATT + 2] = z
-        for j in range(E_BG, 15):
-            w[row + j] = m * w[row + j]
-
-
-def put_pair(w, block, i, j, value):
-    """Write element (i, j) of a symmetric block, and (j, i)."""
-    w[block + ROW * i + j] = value
-    w[block + ROW * j + i] = value
+    """Multiply the 15x15 block at ``block`` by Phi' from the right, in its place."""
+    turn_over(w, block, 0, ROW)
+    apply_transition(w, S_A, dt)
+    turn_back(w, block)
 
 
 def complete(w, block, dt):
     """Multiply Phi P, which is at ``block``, by Phi' from the right, in its place.
 
-    The product is symmetric: the elements up to the diagonal are computed, row by row, and written
-    to both triangles, so that it is symmetric to the bit.  What is written into the rows above
-    nothing needs any more.
+    The product is symmetric: of what is computed, Phi (Phi P)', the upper triangle is taken for
+    both, so that it is symmetric to the bit.
     """
-    m = 1.0 - dt * w[C_BIAS_RATE]
-    block &= PLACE
-    for i in range(15):
-        row = block + ROW * i
-        for j in range(min(i + 1, E_VEL)):
-            put_pair(w, block, i, j, w[row + j] + dt * w[row + E_VEL + j])
-        for j in range(E_VEL, min(i + 1, E_ATT)):
-            put_pair(w, block, i, j, velocity_after(w, row, j - E_VEL))
-        for j in range(E_ATT, min(i + 1, E_BG)):
-            put_pair(w, block, i, j, attitude_after(w, row, j - E_ATT))
-        for j in range(E_BG, i + 1):
-            put_pair(w, block, i, j, m * w[row + j])
+    turn_over(w, block, 0, ROW)
+    apply_transition(w, S_A, dt)
+    mirror(w, block)
 
 
 def propagate_foot(w, foot, dt, coupled=True):

@@ -12,21 +12,22 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+import numpy as np
+
 from . import (
     closest,
-    considered_states,
-    considered_update,
     covariance,
     detector,
     epoch,
     floor,
     measurement_update,
-    output_row,
     stance_correction,
     strapdown,
+    tiles,
     turn,
     zero_velocity,
 )
+from . import layout as lay
 from .at_stances import (
     distance_constraint,
     landing,
@@ -34,13 +35,19 @@ from .at_stances import (
     separation,
     spacing_constraint,
     spacing_learner,
+    stance_end,
 )
+from .outputs import kept_row, output_row
+from .schmidt import considered_states, considered_update, known_states
 
+STAMPS = np.iinfo(np.int64)  # that the library takes
 MODULES = (
     closest,
     strapdown,
+    tiles,
     covariance,
     considered_states,
+    known_states,
     considered_update,
     measurement_update,
     stance_correction,
@@ -48,6 +55,7 @@ MODULES = (
     detector,
     floor,
     output_row,
+    kept_row,
     epoch,
     turn,
     separation,
@@ -56,10 +64,13 @@ MODULES = (
     distance_constraint,
     spacing_learner,
     landing,
+    stance_end,
 )
 ENTRIES = (
     "advance",
+    "keep",
     "step",
+    "take_pair",
     "rerun",
     "restore",
     "set_flags",
@@ -72,7 +83,9 @@ ENTRIES = (
     "observe",
     "constrain_spacing",
     "constrain_distance",
+    "distance_after",
     "learn_spacing",
+    "end_stance",
     "landing",
 )
 
@@ -83,7 +96,9 @@ class Engine:
 
     name: str
     advance: Callable[..., Any]
+    keep: Callable[..., Any]
     step: Callable[..., Any]
+    take_pair: Callable[..., Any]
     rerun: Callable[..., Any]
     restore: Callable[..., Any]
     set_flags: Callable[..., Any]
@@ -96,7 +111,9 @@ class Engine:
     observe: Callable[..., Any]
     constrain_spacing: Callable[..., Any]
     constrain_distance: Callable[..., Any]
+    distance_after: Callable[..., Any]
     learn_spacing: Callable[..., Any]
+    end_stance: Callable[..., Any]
     landing: Callable[..., Any]
 
 
@@ -114,4 +131,27 @@ def kernel_functions() -> dict[str, types.FunctionType]:
 def interpreted() -> Engine:
     """Return the kernel as plain Python functions."""
     functions = kernel_functions()
-    return Engine("interpreted", **{name: functions[name] for name in ENTRIES})
+    entries: dict[str, Callable[..., Any]] = {name: functions[name] for name in ENTRIES}
+    return Engine("interpreted", **{**entries, "take_pair": looked_at(entries["take_pair"])})
+
+
+def looked_at(take_pair: Callable[..., int]) -> Callable[..., int]:
+    """Return ``take_pair`` so that it looks first at what is from outside, as the library does."""
+
+    def take_if_plain(w: Any, n: Any, ring_stamps: Any, stamp: int, sample: Any, told: Any) -> int:
+        if not STAMPS.min <= stamp <= STAMPS.max or not is_plain(sample):
+            return lay.NOT_TAKEN
+        return take_pair(w, n, ring_stamps, stamp, sample, told)
+
+    return take_if_plain
+
+
+def is_plain(sample: Any) -> bool:
+    """Return whether a sample is an array of 12 float64 that lie one after the other."""
+    return (
+        type(sample) is np.ndarray
+        and sample.dtype == np.float64
+        and sample.shape == (12,)
+        and sample.flags.c_contiguous
+        and sample.flags.aligned
+    )

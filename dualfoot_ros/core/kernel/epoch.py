@@ -5,18 +5,24 @@ stops after every epoch that set a notice, because what a notice asks for (a con
 is decided by the tracker and not here.
 """
 
+from ..samples.pair_gate import LIMIT
 from .covariance import correlated, propagate_foot
 from .detector import detect
 from .floor import carry, floor_moves, watch_floor
 from .layout import (
+    C_PERIOD,
     C_WATCH,
     FLAG_STILL,
     FOOT,
     N_EPOCH,
     N_FLAGS,
+    N_LONGEST,
     N_NOTICE,
     N_OLDEST,
+    N_PAIRS,
     N_RING,
+    N_UNEVEN,
+    NOT_TAKEN,
     NOTICE_FLOOR,
     NOTICE_SHIFT,
     NOTICE_STOOD,
@@ -28,12 +34,15 @@ from .layout import (
     S_SF,
     SAMPLE,
     STATE,
+    TAKEN,
+    TO_ATTEND,
     TRACKED,
     WALKED,
     Z_LEFT,
     ZUPT_INFO,
 )
-from .output_row import (
+from .outputs.kept_row import keep
+from .outputs.output_row import (
     collect_stand,
     emit,
     missing,
@@ -45,6 +54,7 @@ from .output_row import (
 from .strapdown import mechanize, orthonormalise
 from .zero_velocity import zupt
 
+NEARLY_EVEN_S = 0.7e-3  # by which an interval that is nearly the nominal one may differ from it
 ORTHONORMAL_EVERY = 32768  # epochs, over which rounding turns an attitude by 1e-13
 
 
@@ -149,6 +159,8 @@ def begin(w, n, ring_stamps, stamp, dt):
         n[N_OLDEST] = epoch - ring + 1
     i = epoch % ring
     ring_stamps[i] = stamp
+    if abs(dt - w[C_PERIOD]) > NEARLY_EVEN_S:
+        n[N_UNEVEN] = epoch
     o = RINGS + SAMPLE * i
     w[o] = dt
     return o
@@ -178,19 +190,30 @@ def run_newest(w, n, o, coupled):
         n[N_NOTICE] = n[N_NOTICE] | NOTICE_WATCH
 
 
-def advance(w, n, ring_stamps, stamps, dts, samples, start, stop, out):
-    """Run epochs ``start..stop-1`` of ``samples`` (N, 12) with intervals ``dts`` (N,) s.
+def advance(
+    w, n, ring_stamps, stamps, left_force, left_rate, right_force, right_rate, start, stop,
+    left, right, nis, nothing, covariances,
+    left_pos, left_vel, left_att, right_pos, right_vel, right_att, relative,
+):  # fmt: skip
+    """Run the epochs of samples ``start..stop-1``; sample ``start`` follows the one before it.
 
-    Each writes its row of ``out`` (N, OUT), and keeps its stamp in ``ring_stamps``.  Returns the
-    index after the last epoch that was run: ``stop``, or earlier when one set n[N_NOTICE].
+    ``stamps`` (N,) are in ns, forces and rates (N, 3).  Each epoch writes its row of what a
+    trajectory keeps (`keep`), and keeps its stamp in ``ring_stamps``.  Returns the index after the
+    last epoch that was run: ``stop``, or earlier when one set n[N_NOTICE].
     """
     coupled = coupled_feet(w)
     for k in range(start, stop):
-        o = begin(w, n, ring_stamps, stamps[k], dts[k])
-        for j in range(12):
-            w[o + 1 + j] = samples[k, j]
+        o = begin(w, n, ring_stamps, stamps[k], (stamps[k] - stamps[k - 1]) * 1e-9)
+        for j in range(3):
+            w[o + 1 + j] = left_force[k, j]
+            w[o + 4 + j] = left_rate[k, j]
+            w[o + 7 + j] = right_force[k, j]
+            w[o + 10 + j] = right_rate[k, j]
         run_newest(w, n, o, coupled)
-        emit(w, n, out, k)
+        keep(
+            w, n, k, left, right, nis, nothing, covariances,
+            left_pos, left_vel, left_att, right_pos, right_vel, right_att, relative,
+        )  # fmt: skip
         if n[N_NOTICE] != 0:
             return k + 1
     return stop
@@ -208,3 +231,24 @@ def step(w, n, ring_stamps, stamp, dt, sample, told):
     run_newest(w, n, o, coupled_feet(w))
     emit(w, n, told, 0)
     return tell(w, told) and n[N_NOTICE] == 0
+
+
+def take_pair(w, n, ring_stamps, stamp, sample, told):
+    """Run the epoch of a pair that just follows the one before, as `step` does.
+
+    That is one in order, without a hole before it, with every value in range.  Returns TAKEN when
+    that is the end of it, TO_ATTEND when `step` says that it is not, and NOT_TAKEN for any other
+    pair, with which nothing is done.
+    """
+    last = ring_stamps[n[N_EPOCH] % n[N_RING]]
+    if n[N_EPOCH] < 0 or stamp <= last or stamp - n[N_LONGEST] > last:
+        return NOT_TAKEN
+    good = 0
+    for j in range(12):
+        if abs(sample[j]) < LIMIT:
+            good += 1
+    if good != 12:
+        return NOT_TAKEN
+    n[N_PAIRS] += 1
+    dt = (stamp - last) * 1e-9
+    return TAKEN if step(w, n, ring_stamps, stamp, dt, sample, told) else TO_ATTEND

@@ -65,7 +65,8 @@ C_ZUPT_CONSIDERS = C_GRAVITY + 13  # 1 when a zero-velocity update takes heading
 C_HEIGHT_DRIFT = (
     C_GRAVITY + 16
 )  # (m/s)^2, vertical velocity that zero-velocity updates let through
-C_FOOT = C_GRAVITY + 17  # then per foot:
+C_PERIOD = C_GRAVITY + 17  # nominal interval of the samples, s
+C_FOOT = C_GRAVITY + 18  # then per foot:
 C_STRIDE = 8
 C_LEVER = 0  # sensor to pivot of the foot, body frame, m
 C_STILL_RATE = 3  # standstill angular rate, rad/s
@@ -103,24 +104,25 @@ F_NEWEST = F_REST + 6  # the same of the newest window, which may already be a s
 F_WINDOWS = F_NEWEST + 6  # quiet windows of the stand
 
 # --- scratch -------------------------------------------------------------------------------------
-S_A = F_WINDOWS + 1  # a 15x16 block
-S_B = S_A + BLOCK  # another
+LINE = 8  # numbers of a line of the cache, at one of which begins what is taken several at once
+S_A = F_WINDOWS + LINE - F_WINDOWS % LINE  # a block of ROW rows
 SIDE = ROW  # error state of one foot in a vector of both: 15 and one pad
 JOINT = 2 * SIDE  # error state of both feet, left then right
 ROWS_MOST = 3  # rows of a measurement
-S_G = S_B + BLOCK  # P H', a column of JOINT a row of the measurement
-S_S = S_G + ROWS_MOST * JOINT  # innovation covariance, 3x3
-S_Y = S_S + ROWS_MOST * ROWS_MOST  # innovation
-S_H = S_Y + ROWS_MOST  # measurement matrix, rows of JOINT
+S_G = S_A + ROW * ROW  # P H', a column of JOINT a row of the measurement
+S_H = S_G + ROWS_MOST * JOINT  # measurement matrix, rows of JOINT
 S_K = S_H + ROWS_MOST * JOINT  # gain, a column of JOINT a row of the measurement
 S_PC = S_K + ROWS_MOST * JOINT  # P times each considered state, columns of JOINT
-S_CC = S_PC + CONSIDERED * JOINT  # [P_cc, P_c H'] of the considered states, then [U, X]
+S_DX = S_PC + CONSIDERED * JOINT  # estimated error state of both feet
+S_CC = S_DX + JOINT  # [P_cc, P_c H'] of the considered states, then [U, X]
 ROW_CC = SIDE  # its row
 X_CC = CONSIDERED  # from the start of a row to its part of P_c H', one number a row of H
-S_GC = S_CC + CONSIDERED * ROW_CC  # P_c H' kept, ROWS_MOST each
-S_L = S_GC + CONSIDERED * ROWS_MOST  # factor of the innovation covariance, 3x3
-S_DX = S_L + ROWS_MOST * ROWS_MOST  # estimated error state of both feet
-S_CDT = S_DX + JOINT  # R_nb dt, 3x3
+S_GC = S_CC + CONSIDERED * ROW_CC  # P_c H' kept
+ROW_GC = 4  # its row, padded
+S_L = S_GC + CONSIDERED * ROW_GC  # factor of the innovation covariance, 3x3
+S_S = S_L + ROWS_MOST * ROWS_MOST  # innovation covariance, 3x3
+S_Y = S_S + ROWS_MOST * ROWS_MOST  # innovation
+S_CDT = S_Y + ROWS_MOST  # R_nb dt, 3x3
 S_SF = S_CDT + 9  # velocity increment in navigation axes, 3
 S_ROTATION = S_SF + 3  # a 3x3 rotation increment
 S_TMP = S_ROTATION + 9  # a 3x3
@@ -153,7 +155,25 @@ X_NOW = X_BEFORE + 3  # what it is at the time of the constraint
 X_AFTER = X_NOW + 3  # the same with the constraint
 X_DISTANCE, X_LATERAL = X_AFTER + 3, X_AFTER + 4  # of X_BEFORE: length, component to the left, m
 X_VELOCITY = X_LATERAL + 1  # of a landing (3,) m/s
-X_SIZE = X_VELOCITY + 3
+X_NIS = X_VELOCITY + 3  # of the constraint
+X_EXCEEDS = X_NIS + 1  # 1 where the distance exceeds what it is brought to
+X_DISTANCE_AFTER = X_NIS + 2  # length at the time of the constraint, with it, m
+X_TARGET = X_NIS + 3  # distance or spacing it has been brought to, m
+X_SIZE = X_TARGET + 1
+
+# --- what to do at the end of a stance, where that is no question for Python ---------------------
+R_KIND = 0  # one of:
+R_SPACING, R_DISTANCE = 1.0, 2.0  # the entry constrain_spacing, or constrain_distance
+R_SHARE = 1  # of the stance, where the moment of the constraint is
+R_LONGEST_S = 2  # s, of a stance that is a step
+R_STD = 3  # m, scatter of the spacing or of the distance
+R_HEIGHT_STD = 4  # m, as constrain_spacing takes it, and the next two
+R_LATERAL = 5
+R_LEFT_ALONE = 6
+R_ROWS = 7  # rows of the measurement
+R_LEARNS = 8  # 1 where the spacing is learnt
+R_SIZE = 9
+END_NO_STEP, END_DONE, END_ASK = 0, 1, 2  # what was done; or it is a question for Python
 
 # --- the array of the spacing that is learnt, a filter of its own --------------------------------
 L_STATE = 0  # spacing, placement (2,), advance a passing, m
@@ -164,8 +184,8 @@ L_AFTER = 23  # separation (2,) m after the newest of them
 L_SIZE = 25
 
 # --- rings (length n[N_RING]) --------------------------------------------------------------------
-RINGS = GLRT_RIGHT + 1  # history first, snapshots after it
-SAMPLE = 14  # dt, 12 values, one pad
+RINGS = GLRT_RIGHT + LINE - GLRT_RIGHT % LINE  # history first, snapshots after it
+SAMPLE = 2 * LINE  # dt, 12 values, pads
 
 # --- int64 workspace -----------------------------------------------------------------------------
 N_RING = 0  # length of the rings, epochs
@@ -181,7 +201,11 @@ N_DECIMATE = 9  # samples to one value of the statistic's history
 N_WALKING = 10  # samples for which a foot counts as walking after a swing
 N_SETTLED = 11  # samples without a turn after which a foot has come to rest on its floor
 N_STANDS = 12  # samples after which a stance is one of a stop
-N_FOOT = 16  # then per foot:
+N_LONGEST = 13  # ns between two samples above which some are missing between them
+N_PAIRS = 14  # pairs that `take_pair` has taken since their number was asked for
+N_UNEVEN = 15  # newest epoch whose interval was not nearly the nominal one, -1 for none
+N_MOMENT = 16  # epoch of the constraint at the newest end of a stance
+N_FOOT = 17  # then per foot:
 N_STRIDE = 8
 N_PHASE = 0  # one of the phases below
 N_START = 1  # first epoch of the (candidate) stance
@@ -204,6 +228,8 @@ NOTICE_BACK = 8192  # the left foot has samples again; twice that for the right
 NOTICE_FLOOR = 32768  # both feet gain velocity alike while they stand, or the floor moves
 STOOD_S = 0.75  # length of that window
 
+NOT_TAKEN, TAKEN, TO_ATTEND = 0, 1, 2  # what `take_pair` returns
+
 # --- output row ----------------------------------------------------------------------------------
 O_FOOT = 55  # stride from left to right
 O_POS = 0
@@ -218,6 +244,8 @@ O_ZUPT = 41  # innovation 3, S 9, NIS
 O_PRESENT = 54  # 1 where the foot had a sample
 O_RELATIVE = 2 * O_FOOT  # covariance of left minus right position, 3x3
 OUT = O_RELATIVE + 9
+K_VEL, K_QUAT = O_VEL, O_QUAT  # what a trajectory keeps of it begins with the position
+KEPT = O_QUAT + 4  # of a foot
 TOLD_BLOCK = 9 * ROW  # of a covariance block: position, velocity and attitude
 TOLD = OUT + 3 * TOLD_BLOCK  # what is told of a live epoch: the row, then left, right, cross
 

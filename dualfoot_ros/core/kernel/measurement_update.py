@@ -10,15 +10,10 @@ them, truth minus estimate, so they are fed back with the other sign.
 
 import math
 
-from .considered_states import KNOWN, consider_all, consider_common, turn_over
-from .considered_update import (
-    clear_rest,
-    considering_gain,
-    knowing_all,
-)
 from .layout import (
     BA,
     BG,
+    CONSIDERED,
     E_ATT,
     E_BA,
     E_BG,
@@ -44,7 +39,14 @@ from .layout import (
     SIDE,
     VEL,
 )
+from .schmidt.considered_states import KNOWN, consider_all, consider_common
+from .schmidt.considered_update import (
+    clear_rest,
+    considering_gain,
+    knowing_all,
+)
 from .strapdown import rotate_navigation, rotation_increment
+from .tiles import turn_over
 from .turn import keeps_gauge, turn_correction
 
 
@@ -96,10 +98,11 @@ def correct_considering(w, rows, kind):
     clear_rest(w, rows)
     if kind == KNOW_ALL:
         consider_all(w)
-        turn_over(w, KNOWN)
+        turn_over(w, PLR, KNOWN, E_BA)
         nis = knowing_all(w)
     elif kind == KNOW_COMMON:
-        nis = considering_gain(w, consider_common(w))
+        consider_common(w)
+        nis = considering_gain(w, CONSIDERED)
     else:
         nis = considering_gain(w, 0)
         for k in range(ROWS_MOST):

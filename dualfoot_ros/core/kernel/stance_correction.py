@@ -1,12 +1,11 @@
 """What a zero-velocity update corrects: all, or no heading and bias, or no place besides."""
 
-from .considered_states import KNOWN, consider_all, consider_foot, turn_over
-from .considered_update import knowing_all, knowing_foot
 from .layout import (
     C_BIAS_KNOWN_VAR,
     CONSIDERED_FOOT,
     DIAGONAL,
     E_ATT,
+    E_BA,
     E_BG,
     E_VEL,
     JOINT,
@@ -21,6 +20,9 @@ from .layout import (
     SIDE,
 )
 from .measurement_update import factor, feed_back, feed_back_foot, take_products, weigh
+from .schmidt.considered_states import KNOWN, consider_all, consider_foot
+from .schmidt.considered_update import knowing_all, knowing_foot
+from .tiles import turn_over
 
 
 def bias_known(w, foot):
@@ -39,7 +41,7 @@ def correct_stance(w, foot, still):
     """
     consider_all(w)
     if foot == 0:  # for the right one they are there already
-        turn_over(w, KNOWN)
+        turn_over(w, PLR, KNOWN, E_BA)
     nis = knowing_all(w)
     for side in range(2):
         clear_known(w, SIDE * side)

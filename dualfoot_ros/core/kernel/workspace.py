@@ -23,11 +23,12 @@ class Workspace:
         """Size the rings to remember ``memory_s`` seconds at ``rate_hz``."""
         self.rate_hz = rate_hz
         self.ring = max(16, math.ceil(memory_s * rate_hz) + 2)
-        self.w = np.zeros(lay.workspace_size(self.ring))
+        self.w = from_a_line(lay.workspace_size(self.ring))
         self.n = np.zeros(lay.integer_size(self.ring), dtype=np.int64)
         self.stamps = np.zeros(self.ring, dtype=np.int64)
         self.n[lay.N_RING] = self.ring
-        self.n[lay.N_EPOCH] = -1
+        self.n[lay.N_EPOCH] = self.n[lay.N_UNEVEN] = -1
+        self.w[lay.C_PERIOD] = 1.0 / rate_hz
 
     @property
     def epoch(self) -> int:
@@ -106,6 +107,13 @@ class Workspace:
     def covariance(self) -> FloatArray:
         """Return the full covariance (30, 30): left foot's error state, then the right foot's."""
         return joint_covariance(self.w[lay.PLL : lay.STATE])
+
+
+def from_a_line(size: int) -> FloatArray:
+    """Return an array (size,) of zeros that begins at a line of the cache, as the layout does."""
+    numbers = np.zeros(size + lay.LINE)
+    first = -numbers.ctypes.data // numbers.itemsize % lay.LINE
+    return numbers[first : first + size]
 
 
 def joint_covariance(blocks: FloatArray) -> FloatArray:

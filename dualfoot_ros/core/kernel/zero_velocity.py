@@ -11,7 +11,6 @@ While the feet are uncorrelated (``coupled`` is False) the other foot stays as i
 computed for it; the bits are the same.
 """
 
-from .considered_states import turn_over
 from .layout import (
     C_FOOT,
     C_LEVER,
@@ -51,6 +50,7 @@ from .layout import (
 )
 from .measurement_update import correct
 from .stance_correction import bias_known, correct_alone, correct_stance, correct_standing
+from .tiles import turn_over
 from .turn import HEADING, keeps_gauge
 
 
@@ -67,7 +67,7 @@ def zupt(w, foot, still=False, coupled=True):
     else:
         collect_own(w, PRR, SIDE)
         if coupled:
-            turn_over(w, E_VEL)
+            turn_over(w, PLR, 0, E_BA)
             collect_other(w, S_A, SIDE, 0)
     if not coupled:
         clear_side(w, SIDE * (1 - foot))

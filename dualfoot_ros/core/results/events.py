@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -34,8 +33,7 @@ class EventKind(StrEnum):
     CARRIED = "carried"
 
 
-@dataclass(frozen=True)
-class Event:
+class Event(NamedTuple):
     """Something that was applied to, or found in, the estimate.
 
     Attributes
@@ -57,8 +55,8 @@ class Event:
     stamp_ns: int
     foot: str
     detected_ns: int
-    innovation: FloatArray = field(default_factory=lambda: NO_INNOVATION)
-    S: FloatArray = field(default_factory=lambda: NO_COVARIANCE)
+    innovation: FloatArray = NO_INNOVATION
+    S: FloatArray = NO_COVARIANCE
     nis: float = float("nan")
     accepted: bool = True
     payload: Payload = NO_DETAILS

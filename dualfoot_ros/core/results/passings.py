@@ -68,7 +68,7 @@ def swing_passings(
     )
     index = np.array([middle for middle, _ in swings], dtype=np.int64)
     way = np.reshape([direction for _, direction in swings], (-1, 2))
-    apart = (left - right)[index]
+    apart = left[index] - right[index]
     lateral = way[:, 0] * apart[:, 1] - way[:, 1] * apart[:, 0]
     return SwingPassings(index, lateral, np.linalg.norm(apart, axis=1))
 

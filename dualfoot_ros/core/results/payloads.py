@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from ..rotation import about_z, rotate_covariances, rotate_vectors, turn_quaternions
 from ..samples.series import FloatArray
@@ -149,8 +149,7 @@ class YawTurn:
         }
 
 
-@dataclass(frozen=True)
-class DistanceLimit:
+class DistanceLimit(NamedTuple):
     """A distance of the feet and its limit, m; ``after`` a correction, where there was one."""
 
     distance: float
@@ -163,8 +162,7 @@ class DistanceLimit:
         return plain if self.after is None else {**plain, "distance_after": self.after}
 
 
-@dataclass(frozen=True)
-class Passing:
+class Passing(NamedTuple):
     """One foot passing the other, and what the constraint there did to their separation.
 
     Attributes

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from ..kernel import layout as lay
+from ..samples.large_arrays import new_array
 from ..samples.series import BoolArray, FloatArray, IntArray
 from .covariances import CELLS, UPPER, Covariances
 from .events import Event
 from .rows import clean_stance, turn_rows, zupt_nis
 from .trajectory import FootTrajectory, Trajectory
 
-NOMINAL = lay.O_QUAT + 4  # position, velocity and quaternion stand side by side
+NOMINAL = lay.KEPT  # position, velocity and quaternion stand side by side
 OF_FOOT = (lay.O_COV_POS, lay.O_COV_VEL, lay.O_COV_ATT)
 BLOCKS = (*OF_FOOT, *(lay.O_FOOT + block for block in OF_FOOT), lay.O_RELATIVE)
 TRIANGLES = tuple(np.array([block + cell for cell in UPPER]) for block in BLOCKS)
@@ -22,33 +24,51 @@ SQUARES = np.array([block + cell for block in BLOCKS for cell in range(9)])
 
 
 class RowStore:
-    """Rows that are put in once, turned when a heading becomes known, and read by columns."""
+    """Rows that the kernel writes, turned when a heading becomes known, and read by columns."""
 
     def __init__(self, count: int, covariances: bool = True) -> None:
         """Make room for ``count`` rows, with ``covariances`` or without."""
         self._count, self._with_covariances = count, covariances
-        self._nominal = [np.zeros((count, NOMINAL)) for _ in range(2)]
+        self._nominal = [new_array((count, NOMINAL)) for _ in range(2)]
         self._present = np.zeros((count, 2), dtype=bool)
-        self._nis = np.zeros((count, 2))
+        self._nis = new_array((count, 2))
         kept = len(TRIANGLES) if covariances else 0  # apart: each can be let go by itself
-        self._triangles = [np.zeros((count, len(UPPER))) for _ in range(kept)]
+        self._triangles = [new_array((count, len(UPPER))) for _ in range(kept)]
         self._turned = np.empty((0, len(SQUARES)))  # covariances of the rows that were turned
         self._newest, self._heading_std = -1, math.nan  # of the newest row, which no turn changes
 
-    def put(self, places: slice | list[int], rows: FloatArray) -> None:
-        """Take rows (K, OUT) for places that no turn has reached."""
+    @property
+    def arrays(self) -> tuple[Any, ...]:
+        """What the kernel is given to write rows to."""
+        unused = [np.empty((0, len(UPPER)))] * (len(TRIANGLES) - len(self._triangles))
+        flags = math.nan, int(self._with_covariances)
+        return *self._nominal, self._nis, *flags, *self._triangles, *unused
+
+    def written(self, span: slice, present: BoolArray, heading_variances: Sequence[float]) -> bool:
+        """Take note of rows that the kernel has written; return whether all are numbers.
+
+        ``present`` (K, 2) is which foot had samples, ``heading_variances`` those of the newest
+        row, of the feet that are there, rad^2.
+        """
+        self._present[span] = present
+        self._take_newest(span.stop - 1, heading_variances)
+        arrays = *self._nominal, *self._triangles
+        return all(_are_numbers(array[span].reshape(-1)) for array in arrays)
+
+    def put(self, places: list[int], rows: FloatArray) -> None:
+        """Take output rows (K, OUT) for places that no turn has reached."""
         self._put_nominal(places, rows)
         for foot in range(2):
             self._present[places, foot] = rows[:, foot * lay.O_FOOT + lay.O_PRESENT] > 0.0
         self._nis[places] = zupt_nis(rows)
         for triangles, cells in zip(self._triangles, TRIANGLES, strict=False):
-            if isinstance(places, slice):  # without an array in between
-                np.take(rows, cells, 1, triangles[places], mode="clip")
-            else:
-                triangles[places] = np.take(rows, cells, axis=1)
-        last = places.stop - 1 if isinstance(places, slice) else places[-1]
-        if len(rows) and last >= self._newest:
-            self._newest, self._heading_std = last, _heading_std(rows[-1])
+            triangles[places] = np.take(rows, cells, axis=1)
+        self._take_newest(places[-1], _heading_variances(rows[-1]))
+
+    def _take_newest(self, place: int, heading_variances: Sequence[float]) -> None:
+        if place >= self._newest:
+            stds = [math.sqrt(max(variance, 0.0)) for variance in heading_variances]
+            self._newest, self._heading_std = place, sum(stds) / len(stds) if stds else math.nan
 
     def turn(self, count: int, event: Event) -> None:
         """Turn the first ``count`` rows as a HEADING event says."""
@@ -121,8 +141,13 @@ class RowStore:
         )
 
 
-def _heading_std(row: FloatArray) -> float:
-    """Return the standard deviation of the headings in a row, rad; nan where no foot is there."""
+def _heading_variances(row: FloatArray) -> list[float]:
+    """Return the variances of the headings in an output row, of the feet that are there, rad^2."""
     starts = [foot * lay.O_FOOT for foot in range(2) if row[foot * lay.O_FOOT + lay.O_PRESENT] > 0]
-    stds = [math.sqrt(max(float(row[start + lay.O_COV_ATT + 8]), 0.0)) for start in starts]
-    return sum(stds) / len(stds) if stds else math.nan
+    return [float(row[start + lay.O_COV_ATT + 8]) for start in starts]
+
+
+def _are_numbers(values: FloatArray) -> bool:
+    """Return whether all values (N,) are numbers: then nearly always their sum is one."""
+    with np.errstate(all="ignore"):
+        return math.isfinite(values.sum()) or bool(np.isfinite(values).all())

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..kernel import layout as lay
 from ..rotation import mean_angle, quaternion_yaw
 from ..samples.series import FloatArray
+from .context import Context
 from .events import Event
-from .facing import NO_FACING, UNKNOWN_VARIANCE, Facing
+from .facing import UNKNOWN_VARIANCE, Facing
 from .rows import matrices, stance_nis, zupt_event
 
 ONE_FOOT_STD = 0.4  # m, of the person about one foot
@@ -97,27 +98,35 @@ class Update:
     start of the track, ``earlier`` of the first update with an estimate has theirs.
     """
 
-    __slots__ = (
-        "_noted", "_told", "earlier", "facing", "phase", "refused", "stamp_ns",
-    )  # fmt: skip
+    __slots__ = ("_context", "_told", "stamp_ns")
 
-    def __init__(
-        self,
-        stamp_ns: int,
-        phase: str,
-        refused: str | None = None,
-        told: FloatArray | None = None,
-        events: tuple[Event, ...] = (),
-        facing: Facing = NO_FACING,
-    ) -> None:
+    def __init__(self, stamp_ns: int, context: Context, told: FloatArray | None = None) -> None:
         """Keep what was computed.
 
-        ``told`` (1, TOLD) is what the kernel tells, ``facing`` what the headings of the feet
-        follow from.  Nothing is taken apart here: of most updates little is asked.
+        ``told`` (1, TOLD) is what the kernel tells.  Nothing is taken apart here: of most updates
+        little is asked.
         """
-        self.stamp_ns, self.phase, self.refused, self._told = stamp_ns, phase, refused, told
-        self._noted, self.facing = events, facing
-        self.earlier: tuple[Update, ...] = ()
+        self.stamp_ns, self._context, self._told = stamp_ns, context, told
+
+    @property
+    def phase(self) -> str:
+        """The phase: "aligning", "standing" (aligned, still refining) or "walking"."""
+        return self._context.phase
+
+    @property
+    def refused(self) -> str | None:
+        """Why the pair was refused, if it was."""
+        return self._context.refused
+
+    @property
+    def facing(self) -> Facing:
+        """What the headings of the feet follow from."""
+        return self._context.facing
+
+    @property
+    def earlier(self) -> tuple[Update, ...]:
+        """The updates of the pairs that had waited for the start of the track."""
+        return self._context.earlier
 
     @property
     def row(self) -> FloatArray | None:
@@ -126,17 +135,16 @@ class Update:
 
     def after(self, earlier: Sequence[Update]) -> Update:
         """Return the update with those of the pairs that had waited for the start of the track."""
-        self.earlier = tuple(earlier)
-        return self
+        return Update(self.stamp_ns, replace(self._context, earlier=tuple(earlier)), self._told)
 
     @property
     def events(self) -> tuple[Event, ...]:
         """Everything that was applied or found at this epoch, zero-velocity updates included."""
         row = self.row
         if row is None:
-            return self._noted
+            return self.announced
         zupts = (zupt_event(row, foot, self.stamp_ns) for foot in range(2))
-        return (*(event for event in zupts if event is not None), *self._noted)
+        return (*(event for event in zupts if event is not None), *self.announced)
 
     def stance_nis(self, foot: int) -> float | None:
         """Return the NIS of the zero-velocity update of foot 0 or 1; None without one."""
@@ -146,7 +154,7 @@ class Update:
     @property
     def announced(self) -> tuple[Event, ...]:
         """The events without the zero-velocity updates (cheap: most epochs have none)."""
-        return self._noted
+        return self._context.events
 
     @property
     def left(self) -> FootEstimate | None:

@@ -54,16 +54,19 @@ class PairGate:
             return None
         return Refusal.DUPLICATE if step == 0 else Refusal.OUT_OF_ORDER
 
-    def interval(self, stamp: int, values: FloatArray, longest_ns: int) -> int:
-        """Take a pair that follows the one before within ``longest_ns``; return the ns since.
-
-        For any other pair return 0, and take nothing: `refusal` says more of it.
-        """
-        dt_ns = 0 if self.last_ns is None else stamp - self.last_ns
-        if not 0 < dt_ns <= longest_ns or not math.hypot(*values.tolist()) < LIMIT:
-            return 0
+    def went_on(self, stamp: int) -> None:
+        """Take note that good pairs have followed each other, up to that of ``stamp``."""
         self._far_ns, self.last_ns = None, stamp
-        return dt_ns
+
+    def plain(self, stamps: IntArray, values: FloatArray) -> int:
+        """Return how many of the next pairs (N, 12) are in order, without a gap, of both feet."""
+        if self.last_ns is None:
+            return 0
+        before = np.concatenate([[self.last_ns], stamps[:-1]])
+        steps = stamps - before  # which may be too many for 64 bits
+        good = (stamps > before) & (steps > 0) & (steps <= MAX_GAP_NS)
+        good &= np.all(np.abs(values) < LIMIT, axis=1)
+        return int(np.append(good, False).argmin())
 
     def _far(self, stamp: int, step: int) -> Refusal | Jump | None:
         """Refuse one stamp that is far off; a second one after it shows that time did jump."""

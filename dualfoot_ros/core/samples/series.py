@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import SeriesError
 from .increments import Increments
+from .large_arrays import contiguous
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -42,7 +43,7 @@ class ImuSeries:
 
     def __post_init__(self) -> None:
         """Bring every array to its type and check that the shapes agree."""
-        stamps = np.ascontiguousarray(self.stamp_ns, dtype=np.int64)
+        stamps = contiguous(self.stamp_ns, np.int64)
         if stamps.ndim != 1:
             raise SeriesError(f"stamp_ns has shape {stamps.shape}; allowed is (N,)")
         object.__setattr__(self, "stamp_ns", stamps)
@@ -50,7 +51,7 @@ class ImuSeries:
             value = getattr(self, name)
             if value is None and name == "magnetic_field":
                 continue
-            array = np.ascontiguousarray(value, dtype=np.float64)
+            array = contiguous(value, np.float64)
             if array.shape != (len(stamps), 3):
                 raise SeriesError(
                     f"{name} has shape {array.shape}; with {len(stamps)} stamps allowed is "
@@ -238,8 +239,8 @@ def _checked(
     stamp_ns: IntArray, name: str, values: FloatArray, columns: tuple[int, ...]
 ) -> tuple[IntArray, FloatArray]:
     """Return stamps (N,) and ``values`` (N, *columns) as arrays of their types."""
-    stamps = np.ascontiguousarray(stamp_ns, dtype=np.int64)
-    array = np.ascontiguousarray(values, dtype=np.float64)
+    stamps = contiguous(stamp_ns, np.int64)
+    array = contiguous(values, np.float64)
     if stamps.ndim != 1 or array.shape != (len(stamps), *columns):
         allowed = "(N,) for both" if not columns else f"(N,) and (N, {columns[0]})"
         raise SeriesError(

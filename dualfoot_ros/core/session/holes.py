@@ -32,6 +32,7 @@ class Holes:
         self._rate_hz = walk.space.rate_hz
         self.period_ns = round(1e9 / self._rate_hz)
         self.longest_ns = min(round(LONGEST_STEP * 1e9 / self._rate_hz), MAX_GAP_NS)
+        walk.space.n[lay.N_LONGEST] = self.longest_ns
         self.filled_ns = 0
 
     def fill(self, stamp: int, dt_ns: int, values: FloatArray) -> Found:

@@ -12,9 +12,10 @@ from ..carried.boarding import LANDING_STD
 from ..constraints import Method, Request, StancePhase
 from ..joint_estimate import Outcome
 from ..kernel import layout as lay
+from ..kernel.at_stances.stance_end import lag_of
 from ..results.events import FEET, Event, EventKind
 from .absence import Presence
-from .lost_track import doubting, lost_speed
+from .lost_track import lost_speed
 from .walk_state import WalkState
 
 Found = list[Event]
@@ -81,7 +82,7 @@ class Notices:
 
     def _phase(self, foot: int, last: int) -> StancePhase:
         walk = self._walk
-        lag = 0.5 * (walk.space.n.item(lay.N_WINDOW) - 1)
+        lag = lag_of(walk.space.n.item(lay.N_WINDOW))
         first = walk.space.foot(foot, "N_START")
         period, heading = walk.gait.period_s, walk.headings.mean
         return StancePhase(foot, first, last, lag, walk.space.epoch, period, heading)
@@ -154,6 +155,9 @@ class Notices:
         walk.phase = "walking"
         walk.gait.ended[foot] = last
         found += self._learn_bias(foot, now)
+        done = walk.end_in_kernel(foot)
+        if done is not None:
+            return found + done
         phase = self._phase(foot, last)
         for method in self._askable(foot):
             found += walk.constrain(FEET[foot], method, method.on_stance_end(phase, walk.gait))
@@ -171,8 +175,8 @@ class Notices:
                 return []
             spacing = walk.spacing[0] if walk.spacing else 0.0
             beside = partial(walk.absences.put_beside, foot=foot, spacing_m=spacing)
-            join = doubting(walk.space, walk.gait, Request(moment, True, beside), [foot])
-            walk.roll_back.apply([join])
+            doubted = (foot,) if walk.doubted else ()
+            walk.roll_back.apply([Request(moment, True, beside)], doubted)
         found.append(walk.absences.joined(foot, now))
         walk.watch()
         walk.heading_changed()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -12,12 +13,15 @@ from ..config import TrackerConfig
 from ..constraints import Method
 from ..kernel import Engine
 from ..kernel import layout as lay
+from ..results.context import Context
 from ..results.events import FEET, Event, EventKind
 from ..results.facing import Facing
 from ..results.payloads import Levelled
+from ..results.row_store import RowStore
 from ..results.update import Update
 from ..samples.increments import Increments
-from ..samples.series import FloatArray, IntArray
+from ..samples.pair_series import PairSeries
+from ..samples.series import FloatArray
 from .given_pose import GivenPose, apply_covariance
 from .holes import Holes
 from .notices import Found, Notices
@@ -49,9 +53,10 @@ class Session:
         self._walk = walk = WalkState(config, start.rate_hz, aids, increments)
         self._notices = Notices(walk, stood_first=not start.waiting)
         self.holes = Holes(walk, self.step)
-        self._sample = np.empty(12)
         self.space, self.rate_hz = walk.space, start.rate_hz
-        walk.use(engine)
+        self._w, self._n, self._stamps = walk.space.w, walk.space.n, walk.space.stamps
+        self.context = Context(walk.phase)
+        self.use(engine)
         self._level()
         for foot, still in enumerate(start.feet):
             if still.absent:
@@ -79,7 +84,13 @@ class Session:
 
     def use(self, engine: Engine) -> None:
         """Go on with another form of the kernel."""
+        self._engine = engine
         self._walk.use(engine)
+
+    def pairs_taken(self) -> tuple[int, int]:
+        """Return how many pairs `take` has taken since this was asked, and the newest stamp."""
+        taken, self._n[lay.N_PAIRS] = self._n.item(lay.N_PAIRS), 0
+        return taken, self._stamps.item(self._n.item(lay.N_EPOCH) % len(self._stamps))
 
     def _level(self) -> None:
         walk = self._walk
@@ -112,18 +123,40 @@ class Session:
 
         None when it is no numbers: nothing of that may leave.
         """
-        walk, space = self._walk, self.space
-        if walk.phase == "standing":
+        if self._walk.phase == "standing":
             self._refine(stamp, values)
-        w, n, sample, told = space.w, space.n, self._sample, np.empty(TOLD)
+        sample, told = np.empty(12), np.empty(TOLD)
         sample[...] = values
-        if not walk.engine.step(w, n, space.stamps, stamp, dt_s, sample, told):
-            if n[lay.N_NOTICE]:
-                before = (*before, *self._notices.attend())
-                walk.engine.emit(w, n, told, 0)
-            if not walk.engine.tell(w, told):
-                return None
-        return Update(stamp, walk.phase, None, told, before, walk.facing)
+        if self._engine.step(self._w, self._n, self._stamps, stamp, dt_s, sample, told):
+            return self._update(stamp, told, before)
+        return self.attend(stamp, told, before)
+
+    def take(self, stamp: int, values: FloatArray, told: FloatArray) -> int:
+        """Let the kernel take a pair of a walk by itself; return what `take_pair` returns.
+
+        An update of it has ``context`` and ``told`` (1, TOLD).
+        """
+        done: int = self._engine.take_pair(self._w, self._n, self._stamps, stamp, values, told)
+        return done
+
+    def attend(
+        self, stamp: int, told: FloatArray, before: tuple[Event, ...] = ()
+    ) -> Update | None:
+        """Attend to what the newest epoch has reported; return as `step` does."""
+        w, n, engine = self._w, self._n, self._engine
+        if n[lay.N_NOTICE]:
+            before = (*before, *self._notices.attend())
+            engine.emit(w, n, told, 0)
+        if not engine.tell(w, told):
+            return None
+        return self._update(stamp, told, before)
+
+    def _update(self, stamp: int, told: FloatArray, events: tuple[Event, ...]) -> Update:
+        """Return the update of an epoch after which anything may be otherwise than before."""
+        phase, facing = self._walk.phase, self._walk.facing
+        if self.context.phase != phase or self.context.facing is not facing:
+            self.context = Context(phase, facing)
+        return Update(stamp, Context(phase, facing, events) if events else self.context, told)
 
     def _refine(self, stamp: int, values: FloatArray) -> None:
         """Level anew when the stand has gone on for a window's length more."""
@@ -135,59 +168,57 @@ class Session:
             self._level()
 
     def steps(
-        self,
-        stamps: IntArray,
-        dts: FloatArray,
-        values: FloatArray,
-        span: tuple[int, int],
-        out: FloatArray,
+        self, series: PairSeries, span: tuple[int, int], rows: RowStore
     ) -> Iterator[tuple[int, Found]]:
-        """Run the epochs of ``span`` [start, stop) into ``out``; yield rows that brought events.
+        """Run the pairs of ``span`` [start, stop), each of which follows the one before it.
 
-        ``dts`` (N,) s are the intervals that end at each sample.
+        What is kept of them goes to their ``rows``; those that brought events are yielded.
         """
-        for k, stop in self._levelled_spans(stamps, values, span):
-            yield from self._epochs(stamps, dts, values, (k, stop), out)
+        for part in self._levelled_spans(series, span):
+            yield from self._epochs(series, part, rows.arrays)
 
     def _levelled_spans(
-        self, stamps: IntArray, values: FloatArray, span: tuple[int, int]
+        self, series: PairSeries, span: tuple[int, int]
     ) -> Iterator[tuple[int, int]]:
         """Yield the parts of ``span`` that are run with one level; between them level a stand."""
         first, stop = span
         alignment = self._alignment if self.phase == "standing" else None
         if alignment is not None:
-            missing = np.isnan(values[first:stop]).any(axis=1)
-            known = first + int(np.append(missing, True).argmax())
-            for row in alignment.refine_all(stamps[first:known], values[first:known]):
+            values = series.values(slice(*span))
+            missing = np.isnan(values).any(axis=1)
+            known = int(np.append(missing, True).argmax())
+            for row in alignment.refine_all(
+                series.stamp_ns[first : first + known], values[:known]
+            ):
                 yield first, span[0] + row
                 first = span[0] + row
                 if self.phase != "standing":
                     break
                 self._feet = alignment.result()
                 self._level()
-            if known < stop:
+            if span[0] + known < stop:
                 self._alignment = None
         yield first, stop
 
     def _epochs(
-        self,
-        stamps: IntArray,
-        dts: FloatArray,
-        values: FloatArray,
-        span: tuple[int, int],
-        out: FloatArray,
+        self, series: PairSeries, span: tuple[int, int], kept: tuple[Any, ...]
     ) -> Iterator[tuple[int, Found]]:
         """Run the epochs of ``span`` as they are; yield as `steps` does."""
-        space, w, n = self.space, self.space.w, self.space.n
-        k, stop = span
+        given = self._stamps, series.stamp_ns, *series.arrays
+        w, n, (k, stop) = self._w, self._n, span
         while k < stop:
-            engine = self._walk.engine
-            k = engine.advance(w, n, space.stamps, stamps, dts, values, k, stop, out)
+            k = self._engine.advance(w, n, *given, k, stop, *kept)
             if n[lay.N_NOTICE]:
                 found = self._notices.attend()
-                engine.emit(w, n, out, k - 1)
+                self._engine.keep(w, n, k - 1, *kept)
                 if found:
                     yield k - 1, found
+
+    def heading_variances(self) -> list[float]:
+        """Return the variance of the heading of each foot that is there, rad^2."""
+        own = [self.space.own_block(foot).item(lay.E_ATT + 2, lay.E_ATT + 2) for foot in range(2)]
+        there = [not self._n[lay.N_FOOT + f * lay.N_STRIDE + lay.N_GONE] for f in range(2)]
+        return [each for each, is_there in zip(own, there, strict=True) if is_there]
 
     def can_set_pose(self) -> bool:
         """Return whether `set_pose` can be obeyed now: standing, or the heading is known."""

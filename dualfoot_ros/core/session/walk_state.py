@@ -4,26 +4,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from ..carried import Carriage
 from ..config import TrackerConfig
 from ..constraints import METHODS, Method, Request
+from ..constraints.at_passing import AtPassing
 from ..gait_history import GaitHistory
 from ..joint_estimate import JointEstimate, Outcome
 from ..kernel import Engine, Workspace
 from ..kernel import layout as lay
-from ..results.events import Event
+from ..misfit import MISFIT
+from ..results.events import FEET, Event
 from ..results.facing import Facing
 from ..results.payloads import Reason
-from ..roll_back import RollBack
+from ..roll_back import Action, RollBack
 from ..samples.increments import Increments
 from ..samples.series import FloatArray
 from .absence import Absences
 from .heading import Headings, turn
 from .initial_state import InitialState
-from .lost_track import doubting
 from .standing import Stands
 
 
@@ -128,15 +130,52 @@ class WalkState:
         """Apply what a method asked for, and tell it and the caller what came of it."""
         if not requests:
             return []
-        requests = [doubting(self.space, self.gait, request) for request in requests]
-        done = self.roll_back.apply(requests)
+        if len(requests) > 1 and requests[0].roll_back:
+            requests = sorted(requests, key=lambda request: request.epoch)
+        outcomes = self.roll_back.apply(requests, self.doubted)
         found = []
-        for request, outcome in done:
+        for request, outcome in zip(requests, outcomes, strict=True):
             if outcome.reason is not Reason.DID_NOT_FIT:
                 method.note(outcome)
             self.carriage.constrained(outcome)
             found.append(self._event(foot, request, outcome))
         return found
+
+    def end_in_kernel(self, foot: int) -> list[Event] | None:
+        """Let the kernel do what the method would ask for at the end of the stance of ``foot``.
+
+        None where it is to be asked.
+        """
+        method = self.method
+        if not isinstance(method, AtPassing) or method.rule is None or self.aids:
+            return None
+        if not self.coupled:
+            return None
+        heading, doubted, roll_back = self.headings.mean, self.doubted, self.roll_back
+        done, found = self.estimate.end_stance(
+            method.rule,
+            method.spacing.numbers,
+            foot,
+            heading,
+            MISFIT if doubted else math.inf,
+            roll_back.newest,
+        )
+        if done != lay.END_DONE:
+            return None if done == lay.END_ASK else []
+        moment, target = self.space.n.item(lay.N_MOMENT), found[lay.X_TARGET]
+        outcome = method.outcome(self.estimate, found, target, heading)
+        apply = partial(method.apply, target=target, heading=heading)
+        roll_back.note(Action(moment, apply, doubted))
+        return [self._event(FEET[foot], Request(moment, True, apply), outcome)]
+
+    @property
+    def doubted(self) -> Sequence[int]:
+        """The feet that may be elsewhere, where a constraint does not fit.
+
+        Where stamps are uneven, a misfit tells nothing: the covariance knows too little all the
+        time.
+        """
+        return () if self.gait.uneven else (0, 1)
 
     def _event(self, foot: str, request: Request, outcome: Outcome) -> Event:
         return Event(

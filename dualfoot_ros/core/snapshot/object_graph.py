@@ -76,6 +76,10 @@ class Encoder:
             return {"array": self._array(item)}
         if type(item) in NAMES:
             return self._describe_collection(item)
+        if isinstance(item, tuple):  # with names
+            path = path_of(type(item))
+            resolve(path)
+            return {"record": path, "items": [self.encode(each) for each in item]}
         if isinstance(item, partial):
             parts = (item.func, list(item.args), dict(item.keywords))
             return {"partial": [self.encode(part) for part in parts]}
@@ -121,6 +125,9 @@ class Decoder:
             self._made[number] = self._arrays[entry["array"]]
         elif "kind" in entry:
             self._make_collection(number, entry)
+        elif "record" in entry:
+            items = [self.decode(each) for each in entry["items"]]
+            self._made[number] = resolve(entry["record"])(*items)
         elif "partial" in entry:
             function, args, keywords = (self.decode(part) for part in entry["partial"])
             self._made[number] = partial(function, *args, **keywords)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...core import FloatArray, PoseSeries
+from ...core import FloatArray, PoseSeries, new_array
 from ..frames.association import seconds
 from ..person_track import PersonTrack
 from .text_table import Form, write_table
@@ -32,8 +32,9 @@ def write_person(directory: Path, person: PersonTrack) -> list[Path]:
 
 def heading_quaternions(heading: FloatArray) -> FloatArray:
     """Return (N, 4) quaternions x y z w of headings (N,) rad."""
-    zero = np.zeros_like(heading)
-    return np.column_stack([zero, zero, np.sin(heading / 2), np.cos(heading / 2)])
+    quaternions = new_array((len(heading), 4))
+    quaternions[:, 2], quaternions[:, 3] = np.sin(heading / 2), np.cos(heading / 2)
+    return quaternions
 
 
 def _write_csv(path: Path, person: PersonTrack) -> Path:

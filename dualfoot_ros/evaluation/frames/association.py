@@ -12,6 +12,7 @@ from ...core import (
     FootTrajectory,
     IntArray,
     PoseSeries,
+    new_array,
     stance_bounds,
     stance_middles,
 )
@@ -34,10 +35,10 @@ def truth_at(stamp_ns: IntArray, truth: PoseSeries) -> PoseSeries:
     origin = int(truth.stamp_ns[0])
     known, wanted = seconds(truth.stamp_ns, origin), seconds(stamp_ns, origin)
     _check_poses(known, truth.quaternion)
-    attitude, position = np.empty((len(wanted), 4)), np.empty((len(wanted), 3))
+    attitude, position = (new_array((len(wanted), columns)) for columns in (4, 3))
     circles, velocity, spline = GreatCircles(known, truth.quaternion), None, None
     if truth.velocity is not None:
-        velocity = np.empty((len(wanted), 3))
+        velocity = new_array((len(wanted), 3))
         spline = HermiteSpline(known, truth.position, truth.velocity)
     for start in range(0, len(wanted), TOGETHER):
         part = slice(start, start + TOGETHER)

@@ -21,7 +21,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from ...core import EvaluationError, FloatArray, FootTrajectory
+from ...core import EvaluationError, FloatArray, FootTrajectory, new_array
 
 FIRST_STRIDES_M = 4.8
 LEAST_WAY_M = 0.1  # that a foot goes in a stride
@@ -57,11 +57,14 @@ class YawTransform:
 
     def position(self, points: FloatArray) -> FloatArray:
         """Return transformed (N, 3) positions."""
-        return points @ self.matrix.T + self.translation
+        moved = self.vector(points)
+        moved += self.translation
+        return moved
 
     def vector(self, vectors: FloatArray) -> FloatArray:
         """Return turned (N, 3) vectors; they are not shifted."""
-        return vectors @ self.matrix.T
+        turned: FloatArray = np.matmul(vectors, self.matrix.T, out=new_array(np.shape(vectors)))
+        return turned
 
     def covariance(self, matrices: FloatArray) -> FloatArray:
         """Return turned (N, 3, 3) covariances."""
@@ -71,7 +74,10 @@ class YawTransform:
         """Return turned (N, 4) attitudes, Hamilton, x y z w."""
         s, c = math.sin(self.yaw / 2), math.cos(self.yaw / 2)
         x, y, z, w = np.asarray(quaternions).T
-        return np.column_stack([c * x - s * y, c * y + s * x, c * z + s * w, c * w - s * z])
+        turned = new_array((len(x), 4))
+        turned[:, 0], turned[:, 1] = c * x - s * y, c * y + s * x
+        turned[:, 2], turned[:, 3] = c * z + s * w, c * w - s * z
+        return turned
 
     def foot(self, track: FootTrajectory) -> FootTrajectory:
         """Return a whole foot trajectory in the new frame, covariances included."""

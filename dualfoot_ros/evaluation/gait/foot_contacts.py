@@ -15,7 +15,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import FloatArray, FootTrajectory, quaternion_matrices
+from ...core import (
+    FloatArray,
+    FootTrajectory,
+    new_array,
+    placed,
+    quaternion_matrices,
+    row_blocks,
+)
 from ..frames.association import Footfalls, seconds
 
 LEAST_STRIDE_M = 0.3
@@ -57,9 +64,12 @@ def find_contacts(track: FootTrajectory) -> FootContacts:
     forward = forward_axis(track, falls)
     if forward is None:
         return found
-    time = seconds(track.stamp_ns, int(track.stamp_ns[0]))
-    pitch = inclination(track, forward)
-    toes = _Toes(time, pitch - np.interp(time, time[falls.middle], pitch[falls.middle]))
+    time = placed(seconds(track.stamp_ns, int(track.stamp_ns[0])))
+    up = inclination(track, forward)
+    flat = time[falls.middle], up[falls.middle]
+    for part in row_blocks(len(time)):
+        up[part] -= np.interp(time[part], *flat)
+    toes = _Toes(time, up)
     swings = zip(falls.bounds[:-1, 1].tolist(), falls.bounds[1:, 0].tolist(), strict=True)
     for k, (begin, last) in enumerate(swings):
         first = begin - 1
@@ -74,9 +84,15 @@ class _Toes:
     """Inclination of the sole against the flat foot, rad, and its rate, at the (N,) times."""
 
     def __init__(self, time: FloatArray, up: FloatArray) -> None:
-        self.time, self.up, self.rate = time, up, np.gradient(up, time)
-        steps = np.diff(time)
-        self._changes = np.concatenate([[0], np.cumsum(steps[1:] != steps[:-1])])
+        self.time, self.up, self.rate = time, up, new_array(time.shape)
+        self._changes = new_array((len(time) - 1,), np.int64)
+        for part in row_blocks(len(time) - 2):
+            around = slice(part.start, part.stop + 2)
+            steps = np.diff(time[around])
+            middle = slice(part.start + 1, part.stop + 1)
+            self.rate[middle] = _rates(steps, up[around])
+            changes = np.cumsum(steps[1:] != steps[:-1])
+            self._changes[middle] = self._changes[part.start] + changes
 
     def swing(self, first: int, last: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return times, inclination and rate from the sample ``first`` to ``last``, by itself."""
@@ -91,6 +107,19 @@ class _Toes:
     def degrees_at(self, moments: FloatArray) -> FloatArray:
         """Return the inclination at (M,) moments, degrees."""
         return np.degrees(np.interp(moments, self.time, self.up))
+
+
+def _rates(steps: FloatArray, values: FloatArray) -> FloatArray:
+    """Return the rates (N,) in the middle of ``values`` (N + 2,), N + 1 uneven steps apart.
+
+    They are numpy's ``gradient`` to the bit.
+    """
+    before, after = steps[:-1], steps[1:]
+    first = -after / (before * (before + after))
+    second = (after - before) / (before * after)
+    third = before / (after * (before + after))
+    rates: FloatArray = first * values[:-2] + second * values[1:-1] + third * values[2:]
+    return rates
 
 
 def forward_axis(track: FootTrajectory, falls: Footfalls) -> FloatArray | None:
@@ -117,11 +146,13 @@ def forward_axis(track: FootTrajectory, falls: Footfalls) -> FloatArray | None:
 
 def inclination(track: FootTrajectory, axis: FloatArray) -> FloatArray:
     """Return the (N,) elevation in rad of a sensor's ``axis`` (3,) above the horizon."""
-    x, y, z, w = track.quaternion.T
-    up = (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))
-    elevation = up[0] * axis[0] + up[1] * axis[1] + up[2] * axis[2]
-    angle: FloatArray = np.arcsin(np.clip(elevation, -1.0, 1.0))
-    return angle
+    angles = new_array((len(track),))
+    for part in row_blocks(len(track)):
+        x, y, z, w = track.quaternion[part].T
+        up = (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))
+        elevation = up[0] * axis[0] + up[1] * axis[1] + up[2] * axis[2]
+        angles[part] = np.arcsin(np.clip(elevation, -1.0, 1.0))
+    return angles
 
 
 def _moments(time: FloatArray, pitch: FloatArray, rate: FloatArray) -> tuple[float, float]:

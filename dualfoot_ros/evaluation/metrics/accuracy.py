@@ -7,7 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import FloatArray, FootTrajectory, PoseSeries
+from ...core import (
+    FloatArray,
+    FootTrajectory,
+    PoseSeries,
+    row_blocks,
+    row_lengths,
+    unwrapped_angles,
+)
 from ..frames.association import Footfalls
 
 NO_LENGTH = 1e-6
@@ -40,12 +47,12 @@ class Errors:
 
 def position_errors(error: FloatArray, walked: FloatArray, marks_m: float = MARKS_M) -> Errors:
     """Summarise (N, 3) position errors along the (N,) walked distance."""
-    size = np.linalg.norm(error, axis=1)
+    size = row_lengths(error)
     distance = float(walked[-1])
     marks = np.arange(1, int(distance / marks_m) + 1) * marks_m
     return Errors(
         rmse_m=rms(size),
-        rmse_horizontal_m=rms(np.linalg.norm(error[:, :2], axis=1)),
+        rmse_horizontal_m=rms(row_lengths(error[:, :2])),
         rmse_vertical_m=rms(error[:, 2]),
         max_m=float(size.max()),
         end_m=float(size[-1]),
@@ -100,11 +107,14 @@ def heading_error(estimate: FloatArray, truth: FloatArray) -> FloatArray:
 
     It is the twist about z of ``R_estimate R_truth'``, which no roll or pitch of the foot enters.
     """
-    ex, ey, ez, ew = np.asarray(estimate).T
-    tx, ty, tz, tw = np.asarray(truth).T
-    z = ez * tw - ew * tz - ex * ty + ey * tx
-    w = ew * tw + ex * tx + ey * ty + ez * tz
-    return np.unwrap(2.0 * np.arctan2(z, w))
+    turn = np.empty(len(truth))
+    for part in row_blocks(len(turn)):
+        ex, ey, ez, ew = np.asarray(estimate[part]).T
+        tx, ty, tz, tw = np.asarray(truth[part]).T
+        z = ez * tw - ew * tz - ex * ty + ey * tx
+        w = ew * tw + ex * tx + ey * ty + ez * tz
+        turn[part] = 2.0 * np.arctan2(z, w)
+    return unwrapped_angles(turn)
 
 
 def turned(vectors: FloatArray, yaw: FloatArray) -> FloatArray:

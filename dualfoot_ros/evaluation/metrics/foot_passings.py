@@ -43,10 +43,10 @@ def feet_report(
     passed = swing_passings(left.position, right.position, left.stance, right.stance)
     passed = passed.where(left.present & right.present)
     at = constrained if len(constrained) else passed.index
-    apart = np.linalg.norm((left.position - right.position)[at], axis=1)
+    apart = np.linalg.norm(left.position[at] - right.position[at], axis=1)
     error, crossed = None, None
     if truth is not None:
-        error = statistics(apart - np.linalg.norm((truth[0] - truth[1])[at], axis=1))
+        error = statistics(apart - np.linalg.norm(truth[0][at] - truth[1][at], axis=1))
         crossed = (
             swing_passings(*truth, left.stance, right.stance)
             .where(left.present & right.present)

@@ -53,7 +53,11 @@ def consistency(
     """Return the NEES of both aligned feet against the truth at the same stamps."""
     rows = [_foot(foot, true, at) for foot, true, at in zip(feet, truth, middles, strict=True)]
     (left_p, left_v, left_a), (right_p, right_v, right_a) = rows
-    apart = feet[0].position - feet[1].position - (truth[0].position - truth[1].position)
+    at = np.concatenate(middles)
+    (left, right), (true_left, true_right) = (
+        [each.position[at] for each in both] for both in (feet, truth)
+    )
+    apart = left - right - (true_left - true_right)
     return Consistency(
         left_position=left_p,
         right_position=right_p,
@@ -61,7 +65,7 @@ def consistency(
         right_velocity=right_v,
         left_attitude=left_a,
         right_attitude=right_a,
-        relative_position=_mean(apart, relative_covariance, np.concatenate(middles)),
+        relative_position=_mean(apart, relative_covariance, at),
     )
 
 
@@ -71,19 +75,23 @@ def _foot(
     """Return the mean NEES of position, of velocity where it is known, and of attitude."""
     velocity = None
     if true.velocity is not None:
-        velocity = _mean(foot.velocity - true.velocity, foot.velocity_covariance, at)
+        off = foot.velocity[at] - true.velocity[at]
+        velocity = _mean(off, foot.velocity_covariance, at)
     attitude = float("nan")
     if len(at):
         turned = turns_between(true.quaternion[at], foot.quaternion[at])
         own = Covariances.of(foot.attitude_covariance[at])
         attitude = _mean(turned, own, np.arange(len(at)))
-    position = _mean(foot.position - true.position, foot.position_covariance, at)
+    position = _mean(foot.position[at] - true.position[at], foot.position_covariance, at)
     return position, velocity, attitude
 
 
 def _mean(error: FloatArray, covariance: Covariances, at: IntArray) -> float:
-    """Return the mean NEES at the epochs ``at``; nan without epochs or without a covariance."""
+    """Return the mean NEES of the errors (K, 3) at the epochs ``at`` (K,).
+
+    It is nan without epochs or without a covariance.
+    """
     there = covariance[at]
     if len(at) == 0 or not np.isfinite(there).all():
         return float("nan")
-    return float(np.mean(nees(error[at], there)))
+    return float(np.mean(nees(error, there)))

@@ -34,18 +34,18 @@ class TrustReport:
 
 def trust_series(trajectory: Trajectory, limit_m: float) -> tuple[IntArray, list[Trust]]:
     """Return the (K,) epochs, about one a second, and what the position was worth at each."""
-    position = person_position(trajectory)[:, :2]
     headings = trajectory.of_kind(EventKind.HEADING)
     known_ns = max((e.detected_ns for e in headings if not e.turn.joint), default=0)
     stamps, tracker = trajectory.left.stamp_ns, TrustTracker(limit_m)
     epochs = trust_epochs(stamps)
+    position = person_position(trajectory, epochs)[:, :2]
     covariance = person_covariance(trajectory, epochs)[:, :2, :2]
     variance = mean_heading_variance(trajectory, epochs)
     found = []
     for n, k in enumerate(epochs.tolist()):
         stamp_ns = int(stamps[k])
         known = stamp_ns >= known_ns
-        tracker.add(stamp_ns, position[k], covariance[n], variance[n], heading_known=known)
+        tracker.add(stamp_ns, position[n], covariance[n], variance[n], heading_known=known)
         trust = tracker.result()
         assert trust is not None
         found.append(trust)
@@ -65,7 +65,7 @@ def mean_heading_variance(trajectory: Trajectory, epochs: IntArray) -> FloatArra
         np.sqrt(np.maximum(foot.attitude_covariance[epochs, 2, 2], 0.0))
         for foot in (trajectory.left, trajectory.right)
     )
-    a, b = person_shares(trajectory)[:, epochs]
+    a, b = person_shares(trajectory, epochs)
     variance: FloatArray = (a * left + b * right) ** 2
     return variance
 
@@ -73,7 +73,7 @@ def mean_heading_variance(trajectory: Trajectory, epochs: IntArray) -> FloatArra
 def trust_report(trajectory: Trajectory, limit_m: float) -> TrustReport:
     """Return how long the position could be trusted."""
     epochs, found = trust_series(trajectory, limit_m)
-    middle = person_position(trajectory)[epochs, :2]
+    middle = person_position(trajectory, epochs)[:, :2]
     way = np.append(0.0, np.cumsum(np.hypot(*np.diff(middle, axis=0).T)))
     lost = next((k for k, trust in enumerate(found) if not trust.trusted), None)
     start_ns = found[0].stamp_ns

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core import FEET, ImuSeries
+from ...core import FEET, ImuSeries, row_blocks
 from ...recording import ClockStep, Recording, Topics
 from ..quality import Quality
 from .finding import Finding, Severity
@@ -112,15 +112,21 @@ def _distinct(series: ImuSeries) -> NDArray[np.uint64]:
 
     Others share one once in 10^19 pairs of samples.
     """
-    values = np.hstack([series.specific_force, series.angular_rate])
+    marks = np.concatenate([_marks(series, part) for part in row_blocks(len(series))])
+    marks.sort()
+    distinct: NDArray[np.uint64] = marks[np.diff(marks, prepend=~marks[:1]) != 0]
+    return distinct
+
+
+def _marks(series: ImuSeries, part: slice) -> NDArray[np.uint64]:
+    """Return a number for each of the samples of a part that are finite."""
+    values = np.hstack([series.specific_force[part], series.angular_rate[part]])
     bits = np.ascontiguousarray(values[np.isfinite(values).all(axis=1)]).view(np.uint64)
     marks = np.zeros(len(bits), dtype=np.uint64)
     for column in bits.T:
         marks = (marks ^ column) * MIXER
         marks ^= marks >> np.uint64(29)
-    marks.sort()
-    distinct: NDArray[np.uint64] = marks[np.diff(marks, prepend=~marks[:1]) != 0]
-    return distinct
+    return marks
 
 
 def find_no_overlap(left: Quality, right: Quality) -> Iterator[Finding]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..walk_facts import WalkFacts
+from ..walk_facts import LEAST_HOLE_S, WalkFacts
 from .finding import Finding, Severity
 from .finding_kinds import FindingKind
 
@@ -22,6 +22,10 @@ REMEDY = (
     "try a higher stance.threshold, or a shorter stance.min_stance; the track is wrong from there "
     "on"
 )
+HOLE_REMEDY = (
+    "check the link of the sensor and the load of the host; what was walked there is bridged, and "
+    "the track is less certain from there on"
+)
 
 
 def find_missed_stances(facts: WalkFacts) -> Iterator[Finding]:
@@ -38,12 +42,13 @@ def find_missed_stances(facts: WalkFacts) -> Iterator[Finding]:
         unequal = short > max(UNEQUAL, UNEQUAL_SHARE * max(paced.values()))
         missed = max(steps.missed, round(short) if unequal else 0)
         if missed >= LEAST_MISSED:
+            why, remedy = _reason(steps.without_stance_hole_s)
             yield Finding(
                 FindingKind.MISSED_STANCES,
                 Severity.WARNING,
                 f"{foot} foot: about {missed} stances are missed (left {strides['left']} and "
-                f"right {strides['right']} steps)",
-                REMEDY,
+                f"right {strides['right']} steps){why}",
+                remedy,
                 foot,
             )
 
@@ -53,15 +58,23 @@ def find_long_strides(facts: WalkFacts) -> Iterator[Finding]:
     for foot, steps in facts.feet.items():
         double = max(LEAST_DOUBLE_M, TWICE * steps.median_stride_m)
         if steps.strides and steps.longest_stride_m > min(LONGEST_STRIDE_M, double):
+            why, remedy = _reason(steps.longest_hole_s, ", so a stance is missed in it")
             yield Finding(
                 FindingKind.LONG_STRIDE,
                 Severity.WARNING,
                 f"{foot} foot: a stride of {steps.longest_stride_m:.2f} m, "
                 f"{steps.longest_at_s:.1f} s after the start of the track, where "
-                f"{steps.median_stride_m:.2f} m are usual, so a stance is missed in it",
-                REMEDY,
+                f"{steps.median_stride_m:.2f} m are usual{why}",
+                remedy,
                 foot,
             )
+
+
+def _reason(hole_s: float, else_why: str = "") -> tuple[str, str]:
+    """Return why a stance is not there, in a hole of ``hole_s`` or in none, and the remedy."""
+    if hole_s < LEAST_HOLE_S:
+        return else_why, REMEDY
+    return f": {hole_s:.2f} s of samples are missing there", HOLE_REMEDY
 
 
 def find_time_without_stance(facts: WalkFacts) -> Iterator[Finding]:
@@ -69,12 +82,13 @@ def find_time_without_stance(facts: WalkFacts) -> Iterator[Finding]:
     for foot, steps in facts.feet.items():
         unusual = steps.without_stance_s > UNUSUAL * steps.usual_swing_s
         if steps.without_stance_s > WITHOUT_STANCE_S and unusual:
+            why, remedy = _reason(steps.without_stance_hole_s)
             yield Finding(
                 FindingKind.NO_STANCE,
                 Severity.WARNING,
                 f"{foot} foot: no stance for {steps.without_stance_s:.1f} s, from "
-                f"{steps.without_stance_at_s:.1f} s after the start of the track on",
-                REMEDY,
+                f"{steps.without_stance_at_s:.1f} s after the start of the track on{why}",
+                remedy,
                 foot,
             )
 

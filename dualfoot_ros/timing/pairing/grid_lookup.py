@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import BoolArray, FloatArray, ImuSeries, IntArray
+from ...core import BoolArray, FloatArray, ImuSeries, IntArray, new_array
 from .interpolation import between_rows
 from .pairing_config import AlignerConfig
 
@@ -45,6 +45,19 @@ class GridLookup:
         """Place ``grid`` among increasing ``stamps``, of which some are of ``lost`` samples."""
         if not len(stamps):
             return cls._nowhere(len(grid))
+        kinds = np.int64, np.int64, np.float64, np.float64, bool, bool, bool, bool
+        whole = cls(*(new_array(grid.shape, kind) for kind in kinds))
+        for start in range(0, len(grid), TOGETHER):
+            part = slice(start, start + TOGETHER)
+            some = cls._of_some(stamps, grid[part], config, lost)
+            for name, values in vars(whole).items():
+                values[part] = getattr(some, name)
+        return whole
+
+    @classmethod
+    def _of_some(
+        cls, stamps: IntArray, grid: IntArray, config: AlignerConfig, lost: BoolArray | None
+    ) -> GridLookup:
         before = np.searchsorted(stamps, grid, side="right") - 1
         inside = (before >= 0) & (before + 1 < len(stamps))
         low = np.maximum(before, 0)
@@ -80,12 +93,13 @@ class GridLookup:
     def take(self, series: ImuSeries, grid: IntArray, kept: BoolArray) -> ImuSeries:
         """Return the series at the ``kept`` stamps of the grid, NaN where there is no value."""
         field = series.magnetic_field
-        at = np.flatnonzero(kept)
-        if self.exact[at].all():  # the samples themselves, as of a foot whose stamps the grid has
-            rows = self.before[at]
-            force, rate = series.specific_force[rows], series.angular_rate[rows]
-        else:
-            force, rate = self._made(series, kept)
+        force, rate = (new_array((int(kept.sum()), 3)) for _ in range(2))
+        force[:], rate[:] = np.nan, np.nan
+        rows, good = np.flatnonzero(self.found[kept]), np.flatnonzero(kept & self.found)
+        for start in range(0, len(good), TOGETHER):
+            part = slice(start, start + TOGETHER)
+            values = self._between(series, good[part])
+            force[rows[part]], rate[rows[part]] = values[:, :3], values[:, 3:]
         return ImuSeries(
             grid[kept],
             force,
@@ -94,24 +108,14 @@ class GridLookup:
             series.increments,
         )
 
-    def _made(self, series: ImuSeries, kept: BoolArray) -> tuple[FloatArray, FloatArray]:
-        """Return force and rate (K, 3) at the ``kept`` stamps, NaN where there is no value."""
-        force, rate = (np.full((int(kept.sum()), 3), np.nan) for _ in range(2))
-        rows, good = np.flatnonzero(self.found[kept]), np.flatnonzero(kept & self.found)
-        for start in range(0, len(good), TOGETHER):
-            part = slice(start, start + TOGETHER)
-            values = self._between(series, good[part])
-            force[rows[part]], rate[rows[part]] = values[:, :3], values[:, 3:]
-        return force, rate
-
     def _between(self, series: ImuSeries, at: IntArray) -> FloatArray:
         """Return force and rate (K, 6) at places (K,) of the grid at which they are known."""
-        before, after = (
-            np.hstack([series.specific_force[rows], series.angular_rate[rows]])
-            for rows in (self.before[at], self.after[at])
-        )
+        before, exact = _samples(series, self.before[at]), self.exact[at]
+        if exact.all():  # as of a foot whose stamps the grid has
+            return before
+        after = _samples(series, self.after[at])
         inside = between_rows(before, after, self.weight[at], self.width_s[at])
-        return np.where(self.exact[at][:, None], before, inside)
+        return np.where(exact[:, None], before, inside)
 
     def _values(self, column: FloatArray, kept: BoolArray) -> FloatArray:
         values = np.full((int(kept.sum()), 3), np.nan)
@@ -120,3 +124,8 @@ class GridLookup:
         line = before + (after - before) * self.weight[good][:, None]
         values[there] = np.where(self.exact[good][:, None], before, line)
         return values
+
+
+def _samples(series: ImuSeries, rows: IntArray) -> FloatArray:
+    """Return force and rate (K, 6) of some samples."""
+    return np.hstack([series.specific_force[rows], series.angular_rate[rows]])

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core import BoolArray, FloatArray, ImuSeries, Refusal
+from ...core import BoolArray, FloatArray, ImuSeries, Refusal, row_blocks
 from .pairing_config import AlignerConfig
 
 INFINITE = 1e100  # no reading in any unit, and its square may overflow
@@ -82,12 +82,15 @@ def all_finite(values: list[float]) -> bool:
 
 
 def finite_samples(series: ImuSeries) -> BoolArray:
-    """Return (N,) where all numbers of a sample are finite, and so are their squares."""
+    """Return (N,) where all six numbers of a sample are finite, and so are their squares."""
     triads = series.specific_force, series.angular_rate
     if all(_are_finite(values) for values in triads):  # the usual case, without a look at each
         return np.ones(len(series), dtype=bool)
-    force, rate = ((np.abs(values) < INFINITE).all(axis=1) for values in triads)
-    return np.asarray(force & rate)
+    finite = np.empty(len(series), dtype=bool)
+    for part in row_blocks(len(series)):
+        force, rate = ((np.abs(values[part]) < INFINITE).all(axis=1) for values in triads)
+        finite[part] = force & rate
+    return finite
 
 
 def _are_finite(values: FloatArray) -> bool:

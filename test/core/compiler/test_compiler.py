@@ -26,9 +26,9 @@ from dualfoot_ros.core.kernel import (
     MODULES,
     interpreted,
     kernel_functions,
-    output_row,
     turn,
 )
+from dualfoot_ros.core.kernel.outputs import output_row
 
 from ..following import live
 from ..harness import walk

@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.kernel import layout as lay
 from dualfoot_ros.core.kernel.strapdown import mechanize, rotation_increment
+from dualfoot_ros.core.results.row_store import RowStore
 
 from ..harness import GRAVITY, quick_engine
 from .states import configured
@@ -195,11 +196,11 @@ def test_the_attitude_is_still_a_rotation_after_a_million_steps():
     w, n = space.w, space.n
     for foot in range(2):
         w[foot * lay.FOOT + lay.ROT : foot * lay.FOOT + lay.ROT + 9] = np.eye(3).ravel()
-    dts, out = np.full(chunk, 0.005), np.zeros((chunk, lay.OUT))
-    stamps = np.zeros(chunk, dtype=np.int64)
+    rows, stamps = RowStore(chunk), 5_000_000 * np.arange(chunk)
     for _ in range(100):
-        samples = rng.uniform(-10.0, 10.0, size=(chunk, 12))
-        assert engine.advance(w, n, space.stamps, stamps, dts, samples, 0, chunk, out) == chunk
+        samples = rng.uniform(-10.0, 10.0, size=(4, chunk, 3))
+        given = space.stamps, stamps, *samples, 1, chunk, *rows.arrays
+        assert engine.advance(w, n, *given) == chunk
     for foot in range(2):
         r = w[foot * lay.FOOT + lay.ROT : foot * lay.FOOT + lay.ROT + 9].reshape(3, 3)
         assert np.abs(r @ r.T - np.eye(3)).max() < 1e-11

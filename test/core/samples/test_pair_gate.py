@@ -1,42 +1,39 @@
-"""The short way of a pair that just follows takes what the long way takes, and nothing else."""
+"""Pairs that are taken many at once are ones that the gate would take one by one."""
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
-from dualfoot_ros.core.samples.pair_gate import MAX_GAP_NS, PairGate
+from dualfoot_ros.core.samples.pair_gate import LIMIT, MAX_GAP_NS, PairGate
 
-PERIOD_NS = 10_000_000
-LONGEST_NS = 17_000_000
-steps = st.sampled_from(
-    (PERIOD_NS, 0, -PERIOD_NS, LONGEST_NS, LONGEST_NS + 1, 11 * 10**9, -(10**10))
-)
-numbers = st.sampled_from((1.0, 1.0, 1.0, 499.0, 600.0, np.nan, np.inf))
+ENDS = np.iinfo(np.int64)
+steps = st.sampled_from((10_000_000, 10_000_000, 0, -1, MAX_GAP_NS, MAX_GAP_NS + 1, 2 * 10**10))
+starts = st.sampled_from((10**18, int(ENDS.min), int(ENDS.max)))
+numbers = st.sampled_from((1.0, 1.0, 1.0, LIMIT, np.nan, -np.inf))
 
 
-@given(st.lists(st.tuples(steps, numbers), min_size=2, max_size=30))
-@settings(max_examples=100, deadline=None)
-def test_the_short_way_is_the_long_one(pairs):
-    """Asked for the interval first, a gate decides as one that is only asked what it refuses."""
-    short, long = PairGate(), PairGate()
-    stamp = 10**12
-    for step, number in pairs:
-        stamp += step
-        values = np.zeros(12)
-        values[3] = number
-        last_ns = long.last_ns
-        refused = long.refusal(stamp, values)
-        dt_ns = short.interval(stamp, values, LONGEST_NS)
-        if dt_ns:
-            assert refused is None
-            assert last_ns is not None
-            assert dt_ns == stamp - last_ns <= LONGEST_NS < MAX_GAP_NS
-        else:
-            follows = last_ns is not None and 0 < stamp - last_ns <= LONGEST_NS
-            assert not (follows and np.isfinite(number) and number < 500.0)
-            assert short.refusal(stamp, values) == refused
-            if refused is None:
-                short.step(stamp)
-        if refused is None:
-            long.step(stamp)
-        assert vars(short) == vars(long)
+@given(st.lists(st.tuples(starts, steps, numbers), min_size=1, max_size=12))
+def test_no_plain_pair_would_be_refused_and_the_first_other_one_is_not_plain(given):
+    stamps, values = np.array(stamps_of(given)), np.ones((len(given), 12))
+    values[:, 4] = [number for _, _, number in given]
+    gate = PairGate()
+    assert gate.plain(stamps, values) == 0  # it knows of no pair before
+    gate.step(int(stamps[0]) - 10_000_000 if stamps[0] > ENDS.min else int(stamps[0]))
+    count = gate.plain(stamps, values)
+    for k in range(len(stamps)):
+        step = int(stamps[k]) - gate.last_ns
+        plain = 0 < step <= MAX_GAP_NS and abs(values[k, 4]) < LIMIT
+        assert plain == (k < count)
+        if not plain:
+            break
+        assert gate.refusal(int(stamps[k]), values[k]) is None
+        gate.went_on(int(stamps[k]))
+
+
+def stamps_of(given) -> list[int]:
+    """Return stamps of which most follow each other, and some are at the ends of all numbers."""
+    found: list[int] = []
+    for start, step, number in given:
+        after = found[-1] + step if found and number == 1.0 else start
+        found.append(min(max(after, int(ENDS.min)), int(ENDS.max)))
+    return found

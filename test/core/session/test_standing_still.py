@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import DualFootTracker, TrackerConfig
-from dualfoot_ros.core.kernel import layout as lay
+from dualfoot_ros.core.results.row_store import RowStore
+from dualfoot_ros.core.samples.pair_series import PairSeries
 
 from ..harness import Pairs, open_session, quick_engine, simulated, walk
 
@@ -16,22 +17,21 @@ def standing(seed: int, seconds: float) -> Pairs:
 
 
 def stood(seed, seconds):
-    """Return the session of a stand, and its rows from the first tracked sample on."""
+    """Return the session of a stand, and both tracks from the first tracked sample on."""
     pairs = standing(seed, seconds)
     session, start = open_session(TrackerConfig(), pairs)
-    out = np.zeros((len(pairs), lay.OUT))
-    for _ in session.steps(pairs.stamps, pairs.dts, pairs.values, (start, len(pairs)), out):
+    rows = RowStore(len(pairs))
+    for _ in session.steps(PairSeries.of(*pairs.series()), (start, len(pairs)), rows):
         pass
-    return session, out[start:]
+    return session, [nominal[start:] for nominal in rows.arrays[:2]]
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_standing_still_drifts_less_than_a_centimetre_in_a_minute(seed):
     """Without the refinement that a tracker does while it stands: the filter alone must hold."""
-    _, out = stood(seed, 64.0)
-    for foot in range(2):
-        track = out[:, lay.O_FOOT * foot : lay.O_FOOT * foot + 3]
-        assert np.linalg.norm(track - track[0], axis=1).max() < 0.01
+    _, tracks = stood(seed, 64.0)
+    for track in tracks:
+        assert np.linalg.norm(track[:, :3] - track[0, :3], axis=1).max() < 0.01
 
 
 @pytest.mark.parametrize("method", ("zupt", "idc"))
@@ -51,12 +51,9 @@ def test_the_covariance_of_a_standing_foot_covers_its_drift():
     """Over many stands, squared drift against its variance: not more than chi-square allows."""
     nees = []
     for seed in range(12):
-        session, out = stood(seed, 34.0)
+        session, tracks = stood(seed, 34.0)
         for foot in range(2):
-            drift = (
-                session._walk.estimate.position(foot)
-                - out[0, lay.O_FOOT * foot : lay.O_FOOT * foot + 3]
-            )
+            drift = session._walk.estimate.position(foot) - tracks[foot][0, :3]
             P = session.space.covariance()[15 * foot : 15 * foot + 3, 15 * foot : 15 * foot + 3]
             nees.append(float(drift @ np.linalg.solve(P, drift)))
     assert np.mean(nees) < 3.0 * 1.7  # chi-square of 72 degrees of freedom, one in 10^5

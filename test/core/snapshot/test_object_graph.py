@@ -3,11 +3,13 @@
 import json
 from collections import Counter, deque
 from functools import partial
+from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
 
 from dualfoot_ros.core import SnapshotError, TrackerConfig
+from dualfoot_ros.core.results.payloads import DistanceLimit
 from dualfoot_ros.core.rotation import about_z
 from dualfoot_ros.core.snapshot.object_graph import Decoder, Encoder, resolve
 
@@ -24,7 +26,7 @@ def again(item):
     "item",
     [
         None, True, 3, -0.0, 1e-308, float("inf"), "text", [1, [2.5, "a"]], (1, (2,)),
-        {"a": 1, (1, "b"): [2]}, Counter(a=3),
+        {"a": 1, (1, "b"): [2]}, Counter(a=3), DistanceLimit(0.2, 0.1),
     ],
 )  # fmt: skip
 def test_plain_values_come_back_equal_and_of_the_same_type(item):
@@ -75,7 +77,7 @@ def test_nothing_outside_of_the_core_is_called_or_made(path):
         resolve(path)
 
 
-@pytest.mark.parametrize("item", [object(), open, lambda: 3, {1, 2}])
+@pytest.mark.parametrize("item", [object(), open, lambda: 3, {1, 2}, urlsplit("a")])
 def test_what_cannot_be_kept_is_refused(item):
     with pytest.raises(SnapshotError):
         again(item)

@@ -14,6 +14,7 @@ from dualfoot_ros.core import (
     TrackerConfig,
     Update,
 )
+from dualfoot_ros.core.results.context import Context
 from dualfoot_ros.inspection import Finding, FindingKind, Severity
 from dualfoot_ros.nodes.results.fusion_report import FusionReport
 from dualfoot_ros.nodes.ros.diagnostics import OVER_S
@@ -116,11 +117,11 @@ def test_interpolated_pairs_are_a_warning_where_another_node_makes_the_pairs(ext
 
 
 def test_two_seconds_of_walking_without_a_stance_are_a_warning_for_each_foot(fusion):
-    fusion.report.add(Update(10**12, "standing"))
+    fusion.report.add(Update(10**12, Context("standing")))
     for second in range(3):
-        fusion.report.add(Update(10**12 + second * 10**9, "walking"))
+        fusion.report.add(Update(10**12 + second * 10**9, Context("walking")))
     assert fusion.kinds() == []
-    fusion.report.add(Update(10**12 + 3 * 10**9, "walking"))
+    fusion.report.add(Update(10**12 + 3 * 10**9, Context("walking")))
     assert fusion.kinds() == [FindingKind.NO_STANCE] * 2
 
 
@@ -148,12 +149,12 @@ def test_a_rate_that_is_not_that_of_the_start_is_a_warning_with_both_figures(fus
 def test_a_foot_that_was_lost_is_a_warning_for_ten_seconds(fusion):
     second = 10**9
     lost = Event(EventKind.LOST, 10**12, "left", 10**12 + second)
-    fusion.report.add(Update(10**12 + second, "standing", events=(lost,)))
+    fusion.report.add(Update(10**12 + second, Context("standing", events=(lost,))))
     (finding,) = fusion.status().of_kind(FindingKind.LOST_FOOT)
     assert finding.about == "left"
-    fusion.report.add(Update(10**12 + 10 * second, "standing"))
+    fusion.report.add(Update(10**12 + 10 * second, Context("standing")))
     assert fusion.kinds() == [FindingKind.LOST_FOOT]
-    fusion.report.add(Update(10**12 + 11 * second, "standing"))
+    fusion.report.add(Update(10**12 + 11 * second, Context("standing")))
     assert fusion.kinds() == []
 
 

@@ -14,6 +14,9 @@ from ..layout import (
     X_AFTER,
     X_BEFORE,
     X_DISTANCE,
+    X_DISTANCE_AFTER,
+    X_EXCEEDS,
+    X_NIS,
     X_NOISE,
     X_NOW,
     X_S,
@@ -29,7 +32,7 @@ def constrain_distance(w, x, c0, std, solves, given, a, b, c):
     """Bring the separation to ``c0`` m, known to ``std`` m, if it is longer; return whether it is.
 
     The separation is that of now, or (a, b, c) m when it is ``given``.  The innovation is that of
-    the distance.  Nothing is done unless the entry ``solves``.
+    the distance, and so is its NIS, -1 for none.  Nothing is done unless the entry ``solves``.
     """
     separation(w, x, X_NOW)
     for i in range(3):
@@ -48,8 +51,11 @@ def constrain_distance(w, x, c0, std, solves, given, a, b, c):
     if exceeds and solves:
         project(w, x, c0, std)
     x[X_DISTANCE] = distance
+    s = variance + std * std
     x[X_Y] = error
-    x[X_S] = variance + std * std
+    x[X_S] = s
+    x[X_NIS] = error * error / s if s > 0.0 else -1.0
+    x[X_EXCEEDS] = 1.0 if exceeds else 0.0
     return exceeds
 
 
@@ -69,4 +75,12 @@ def project(w, x, c0, std):
     x[X_Y] = x[M_PUSH]
     x[X_NOISE] = x[M_NOISE]
     observe(w, x, 1, KNOW_NOTHING)
-    separation(w, x, X_AFTER)
+    distance_after(w, x)
+
+
+def distance_after(w, x):
+    """Write what the separation has become, at its moment and now; return the distance now, m."""
+    x[X_DISTANCE_AFTER] = separation(w, x, X_AFTER)
+    for i in range(3):
+        x[X_AFTER + i] = x[X_BEFORE + i] + (x[X_AFTER + i] - x[X_NOW + i])
+    return x[X_DISTANCE_AFTER]

@@ -13,6 +13,7 @@ from ..layout import (
     X_BEFORE,
     X_DISTANCE,
     X_LATERAL,
+    X_NIS,
     X_NOISE,
     X_Y,
 )
@@ -63,6 +64,7 @@ def constrain_spacing(w, x, ahead_x, ahead_y, spacing, std, height_std, lateral,
         rows += 1
     nis = observe(w, x, rows, kind)
     separation(w, x, X_AFTER)
+    x[X_NIS] = nis
     return nis
 
 

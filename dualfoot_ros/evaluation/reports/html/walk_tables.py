@@ -76,9 +76,8 @@ def _truth(
         )
     middle = [(true[f"true_left_{axis}"] + true[f"true_right_{axis}"]) / 2 for axis in "xy"]
     true["error"] = np.hypot(columns["x"] - middle[0], columns["y"] - middle[1])
-    true["true_apart"] = np.linalg.norm(
-        (run.truth[0].position - run.truth[1].position)[rows], axis=1
-    )
+    left, right = (series.position[rows] for series in run.truth)
+    true["true_apart"] = np.linalg.norm(left - right, axis=1)
     true["true_floor"] = np.mean(np.broadcast_arrays(*floors), axis=0) + np.zeros(len(rows))
     return true
 
@@ -106,9 +105,9 @@ def _moments(run: Evaluation, time: FloatArray) -> Any:
     at = at[thin(len(at), 2000)]
     columns = {
         "time": time[at],
-        "apart": np.linalg.norm((left.position - right.position)[at], axis=1),
+        "apart": np.linalg.norm(left.position[at] - right.position[at], axis=1),
     }
     if run.truth is not None:
-        true = run.truth[0].position - run.truth[1].position
-        columns["true_apart"] = np.linalg.norm(true[at], axis=1)
+        true = run.truth[0].position[at] - run.truth[1].position[at]
+        columns["true_apart"] = np.linalg.norm(true, axis=1)
     return table(columns)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ....core import FloatArray, swing_passings
+from ....core import FloatArray, row_distances, swing_passings
 from ...evaluate import Evaluation, constraint_epochs
 from ...frames.association import seconds
 from .style import GREEN, PINK, TRUTH, new_figure, save
@@ -40,10 +40,10 @@ def _panel(axis: Axes, run: Evaluation) -> None:
     left, right = run.trajectory.left, run.trajectory.right
     time = seconds(left.stamp_ns, int(left.stamp_ns[0]))
     both = left.present & right.present
-    apart = np.linalg.norm(left.position - right.position, axis=1)
+    apart = row_distances(left.position, right.position)
     apart[~both] = np.nan
     if run.truth is not None:
-        true = np.linalg.norm(run.truth[0].position - run.truth[1].position, axis=1)
+        true = row_distances(run.truth[0].position, run.truth[1].position)
         _curve(axis, time, true, TRUTH, "truth")
     _curve(axis, time, apart, "#444444", "estimate")
     dot = 4.0 if time[-1] <= LONG_S else 1.5

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ....core import FEET, FloatArray
+from ....core import FEET, FloatArray, row_distances
 from ...evaluate import Evaluation
 from ...frames.association import Footfalls
 from ...metrics.accuracy import heading_error
@@ -29,9 +29,9 @@ def draw_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
         for foot, truth in zip(FEET, run.truth or (), strict=False):
             track = run.feet_tracks[foot]
             walked = Footfalls.of(track).walked(truth.position, truth.stamp_ns)
-            error = np.linalg.norm(track.position - truth.position, axis=1)
+            error = row_distances(track.position, truth.position)
             some, label = thinned(len(error)), f"{name} {foot}"
-            line = walked[some], error[some]
+            line = walked[some].copy(), error[some].copy()  # else a figure holds the whole
             # On a long walk both lie on each other: the first is wide, so that both show.
             width = WIDE if foot == FEET[0] else NARROW
             axes[0, 0].plot(*line, style, color=FOOT[foot], lw=width, label=label)
@@ -62,8 +62,8 @@ def _heading(
     axis: Axes, walked: FloatArray, turns: list[FloatArray], style: str, name: str
 ) -> None:
     some = thinned(len(walked))
-    common, difference = (np.degrees(part)[some] for part in split(turns[0], turns[1]))
-    walked = walked[some]
+    common, difference = (np.degrees(part[some]) for part in split(turns[0], turns[1]))
+    walked = walked[some].copy()
     axis.plot(walked, common, style, color=GREEN, lw=1.1, label=f"{name} common")
     axis.plot(
         walked, difference, style, color=PINK, lw=1.1, label=f"{name} difference (left - right)"

@@ -13,10 +13,7 @@ measurement does not have are zero, as are states beyond the considered ones.  L
 states have no branch and much to do, so that a compiler takes several states at once.
 """
 
-import math
-
-from .considered_states import KNOWN
-from .layout import (
+from ..layout import (
     JOINT,
     PLACE,
     PLL,
@@ -24,6 +21,7 @@ from .layout import (
     PRR,
     ROW,
     ROW_CC,
+    ROW_GC,
     ROWS_MOST,
     S_A,
     S_CC,
@@ -38,9 +36,8 @@ from .layout import (
     SIDE,
     X_CC,
 )
-
-LEAST_PIVOT = 1e-18  # a variance below it is none: the state is known already
-TOGETHER = 4  # considered states that are taken at once
+from .considered_states import KNOWN
+from .known_states import TOGETHER, inverse_root, solve_known
 
 
 def clear_rest(w, rows):
@@ -54,49 +51,6 @@ def clear_rest(w, rows):
             w[S_S + ROWS_MOST * m + k] = 0.0
 
 
-def solve_known(w, size):
-    """Solve P_cc X = P_c H' in place of the rows [P_cc, P_c H'] at S_CC, by P_cc = U' U.
-
-    A pivot that is none gives zeros.  The diagonal of U is left as what it divides by, inverted.
-    """
-    for k in range(size):
-        row = S_CC + ROW_CC * k
-        scale = inverse_root(w[row + k], LEAST_PIVOT)
-        multiply(w, row, scale)
-        w[row + k] = scale
-        for i in range(k + 1, size):
-            x = w[row + i]
-            for j in range(i, ROW_CC):
-                w[S_CC + ROW_CC * i + j] -= x * w[row + j]
-    for i in range(size):
-        k = size - 1 - i
-        row = S_CC + ROW_CC * k
-        x0 = w[row + X_CC]
-        x1 = w[row + X_CC + 1]
-        x2 = w[row + X_CC + 2]
-        for m in range(k + 1, size):
-            u = w[row + m]
-            x0 -= u * w[S_CC + ROW_CC * m + X_CC]
-            x1 -= u * w[S_CC + ROW_CC * m + X_CC + 1]
-            x2 -= u * w[S_CC + ROW_CC * m + X_CC + 2]
-        scale = w[row + k]
-        w[row + X_CC] = x0 * scale
-        w[row + X_CC + 1] = x1 * scale
-        w[row + X_CC + 2] = x2 * scale
-
-
-def inverse_root(variance, least):
-    """Return one over the root of a variance; zero where it is none: not above ``least``."""
-    return 1.0 / math.sqrt(variance) if variance > least else 0.0
-
-
-def multiply(w, start, scale):
-    """Multiply the vector (SIDE,) at ``start`` by ``scale``."""
-    start &= PLACE
-    for j in range(SIDE):
-        w[start + j] *= scale
-
-
 def factor_rest(w, size):
     """Write L of S' = S - P_c H' X = L L' to S_L and z = L^-1 y to S_DX; return the NIS z' z.
 
@@ -107,7 +61,7 @@ def factor_rest(w, size):
         for m in range(k + 1):
             total = w[S_S + ROWS_MOST * k + m]
             for c in range(size):
-                total -= w[S_GC + ROWS_MOST * c + k] * w[S_CC + ROW_CC * c + X_CC + m]
+                total -= w[S_GC + ROW_GC * c + k] * w[S_CC + ROW_CC * c + X_CC + m]
             for i in range(m):
                 total -= w[S_L + ROWS_MOST * k + i] * w[S_L + ROWS_MOST * m + i]
             if m == k:

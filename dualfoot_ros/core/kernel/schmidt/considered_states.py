@@ -6,12 +6,11 @@ that a constraint between the feet corrects the one against the other and does n
 Each writes rows [P_cc, P_c H'] to S_CC, the last one also P_.c to S_PC, a column of JOINT a state.
 """
 
-from .layout import (
+from ..layout import (
     CONSIDERED,
     CONSIDERED_FOOT,
     DIAGONAL,
     E_ATT,
-    E_BA,
     E_BG,
     E_POS,
     JOINT,
@@ -21,8 +20,7 @@ from .layout import (
     PRR,
     ROW,
     ROW_CC,
-    ROWS_MOST,
-    S_A,
+    ROW_GC,
     S_CC,
     S_G,
     S_GC,
@@ -31,6 +29,7 @@ from .layout import (
     SIDE,
     X_CC,
 )
+from ..tiles import copy_row, put_row
 
 BIASES, COMMON = 6, 4  # gyro biases of both feet; heading and position, in common
 KNOWN = E_ATT + 2  # heading, which gyro bias follows: CONSIDERED_FOOT states of a foot
@@ -57,20 +56,10 @@ def gather_right(w, state, column):
         w[column + SIDE + j] = w[PRR + ROW * state + j]
 
 
-def put_known(w, c, m, value):
-    """Write element m of row c of P_c H'."""
-    w[S_GC + ROWS_MOST * c + m] = value
-    w[S_CC + ROW_CC * c + X_CC + m] = value
-
-
-def clear_beyond(w, row, size):
-    """Write zeros behind the first ``size`` columns of the ``row`` of P_cc.
-
-    Nothing reads them, but a row is scaled as a whole: what another update has left there would
-    grow from one update to the next, until it overflows.
-    """
-    for c in range(size, X_CC):
-        w[row + c] = 0.0
+def put_known(w, c, x, y, z):
+    """Write row ``c`` of P_c H'."""
+    put_row(w, S_GC + ROW_GC * c, x, y, z, 0.0)
+    put_row(w, S_CC + ROW_CC * c + X_CC, x, y, z, 0.0)
 
 
 def consider_all(w):
@@ -79,16 +68,11 @@ def consider_all(w):
         left = S_CC + ROW_CC * k
         right = left + ROW_CC * CONSIDERED_FOOT
         row = ROW * (KNOWN + k) + KNOWN
-        for c in range(CONSIDERED_FOOT):
-            w[left + c] = w[PLL + row + c]
-            w[left + CONSIDERED_FOOT + c] = w[PLR + row + c]
-            w[right + c] = w[PLR + ROW * (KNOWN + c) + KNOWN + k]
-            w[right + CONSIDERED_FOOT + c] = w[PRR + row + c]
-        clear_beyond(w, left, 2 * CONSIDERED_FOOT)
-        clear_beyond(w, right, 2 * CONSIDERED_FOOT)
-        for m in range(ROWS_MOST):
-            put_known(w, k, m, w[S_G + JOINT * m + KNOWN + k])
-            put_known(w, CONSIDERED_FOOT + k, m, w[S_G + JOINT * m + SIDE + KNOWN + k])
+        copy_row(w, PLL + row, left)
+        copy_row(w, PLR + row, left + CONSIDERED_FOOT)
+        copy_row(w, PRR + row, right + CONSIDERED_FOOT)
+    put_known_foot(w, 0, S_G + KNOWN)
+    put_known_foot(w, CONSIDERED_FOOT, S_G + SIDE + KNOWN)
 
 
 def consider_foot(w, block, side):
@@ -97,23 +81,25 @@ def consider_foot(w, block, side):
     ``block`` is its covariance and ``side`` its place in a vector of both.
     """
     for k in range(CONSIDERED_FOOT):
-        for c in range(CONSIDERED_FOOT):
-            w[S_CC + ROW_CC * k + c] = w[block + ROW * (KNOWN + k) + KNOWN + c]
-        clear_beyond(w, S_CC + ROW_CC * k, CONSIDERED_FOOT)
-        for m in range(ROWS_MOST):
-            put_known(w, k, m, w[S_G + JOINT * m + side + KNOWN + k])
+        copy_row(w, block + ROW * (KNOWN + k) + KNOWN, S_CC + ROW_CC * k)
+    put_known_foot(w, 0, S_G + side + KNOWN)
 
 
-def turn_over(w, first):
-    """Write the rows of the transposed cross block from ``first`` to the gyro bias to S_A."""
-    for i in range(first, E_BA):
-        for j in range(15):
-            w[S_A + ROW * i + j] = w[PLR + ROW * j + i]
-        w[S_A + ROW * i + 15] = 0.0
+def put_known_foot(w, c, g):
+    """Write P_c H' of four states, which are at ``g`` of its columns, as rows from ``c`` on."""
+    a0, a1, a2, a3 = w[g], w[g + 1], w[g + 2], w[g + 3]
+    g += JOINT
+    b0, b1, b2, b3 = w[g], w[g + 1], w[g + 2], w[g + 3]
+    g += JOINT
+    c0, c1, c2, c3 = w[g], w[g + 1], w[g + 2], w[g + 3]
+    put_known(w, c, a0, b0, c0)
+    put_known(w, c + 1, a1, b1, c1)
+    put_known(w, c + 2, a2, b2, c2)
+    put_known(w, c + 3, a3, b3, c3)
 
 
 def consider_common(w):
-    """Prepare the gyro biases and what the feet have in common; return how many.
+    """Prepare the gyro biases and what the feet have in common, and states that are none.
 
     In common are heading and position: (1 - a) x_L + a x_R with a = V_L / (V_L + V_R), so that the
     foot that is known better counts more, and the correction stays between the feet.
@@ -122,8 +108,8 @@ def consider_common(w):
         gather_left(w, E_BG + k, S_PC + JOINT * k)
         gather_right(w, E_BG + k, S_PC + JOINT * (3 + k))
     for k in range(BIASES):
-        for m in range(ROWS_MOST):
-            put_known(w, k, m, w[S_G + JOINT * m + SIDE * (k // 3) + E_BG + k % 3])
+        g = S_G + SIDE * (k // 3) + E_BG + k % 3
+        put_known(w, k, w[g], w[g + JOINT], w[g + 2 * JOINT])
     for k in range(COMMON):
         state = common_state(k)
         a = share_of_right(w, k)
@@ -132,9 +118,10 @@ def consider_common(w):
         gather_right(w, state, S_K)
         for j in range(JOINT):
             w[column + j] = (1.0 - a) * w[column + j] + a * w[S_K + j]
-        for m in range(ROWS_MOST):
-            g = S_G + JOINT * m + state
-            put_known(w, BIASES + k, m, (1.0 - a) * w[g] + a * w[g + SIDE])
+        g0 = between(w, S_G + state, a)
+        g1 = between(w, S_G + JOINT + state, a)
+        g2 = between(w, S_G + 2 * JOINT + state, a)
+        put_known(w, BIASES + k, g0, g1, g2)
     for k in range(BIASES + COMMON):  # the upper triangle is what counts
         column = S_PC + JOINT * k
         for m in range(BIASES):
@@ -143,10 +130,21 @@ def consider_common(w):
             a = share_of_right(w, m)
             x = column + common_state(m)
             w[S_CC + ROW_CC * (BIASES + m) + k] = (1.0 - a) * w[x] + a * w[x + SIDE]
+        clear_beyond(w, S_CC + ROW_CC * k, BIASES + COMMON)
     for k in range(BIASES + COMMON, CONSIDERED):
-        for m in range(ROWS_MOST):
-            put_known(w, k, m, 0.0)
-    return BIASES + COMMON
+        clear_beyond(w, S_CC + ROW_CC * k, 0)
+        put_known(w, k, 0.0, 0.0, 0.0)
+
+
+def between(w, g, a):
+    """Return what the feet have in common of an element of P H', at ``g`` for the left."""
+    return (1.0 - a) * w[g] + a * w[g + SIDE]
+
+
+def clear_beyond(w, row, size):
+    """Write zeros, for states that are none, behind ``size`` columns of the ``row`` of P_cc."""
+    for c in range(size, X_CC):
+        w[row + c] = 0.0
 
 
 def share_of_right(w, k):

@@ -2,8 +2,8 @@
 
 import math
 
-from .floor import floor_moves
-from .layout import (
+from ..floor import floor_moves
+from ..layout import (
     A_COUNT,
     A_FOOT,
     A_SECONDS,

@@ -1,0 +1,63 @@
+"""Figures of the rows of long arrays, a block of rows at a time: whole copies would be large.
+
+All are to the bit what numpy gives of the whole arrays.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from .series import FloatArray
+
+BLOCK = 1 << 14  # rows: what they need stays in the cache of the processor
+
+
+def row_blocks(count: int) -> Iterator[slice]:
+    """Yield the parts of ``count`` rows, in order."""
+    for start in range(0, count, BLOCK):
+        yield slice(start, min(start + BLOCK, count))
+
+
+def row_lengths(vectors: FloatArray) -> FloatArray:
+    """Return the lengths (N,) of vectors (N, K)."""
+    found = np.empty(len(vectors))
+    for part in row_blocks(len(found)):
+        found[part] = np.linalg.norm(vectors[part], axis=1)
+    return found
+
+
+def row_distances(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Return the distances (N,) of places (N, K) from others."""
+    found = np.empty(len(one))
+    for part in row_blocks(len(found)):
+        found[part] = np.linalg.norm(one[part] - other[part], axis=1)
+    return found
+
+
+def unwrapped_angles(angles: FloatArray) -> FloatArray:
+    """Return angles (N,) rad without jumps of whole turns, as numpy's ``unwrap``."""
+    found, turned = angles.copy(), 0.0
+    for part in row_blocks(len(angles) - 1):
+        after = angles[part.start + 1 : part.stop + 1]
+        steps = after - angles[part]
+        if (np.abs(steps) < math.pi).all():  # nearly always
+            found[part.start + 1 : part.stop + 1] += turned
+            continue
+        turns = _whole_turns(steps)
+        turns[0] += turned
+        np.cumsum(turns, out=turns)
+        found[part.start + 1 : part.stop + 1] += turns
+        turned = float(turns[-1])
+    return found
+
+
+def _whole_turns(steps: FloatArray) -> FloatArray:
+    """Return what is to be added (N,) rad to each of the steps."""
+    nearest = np.mod(steps + math.pi, 2 * math.pi) - math.pi
+    nearest[(nearest == -math.pi) & (steps > 0)] = math.pi
+    turns: FloatArray = nearest - steps
+    turns[np.abs(steps) < math.pi] = 0.0
+    return turns

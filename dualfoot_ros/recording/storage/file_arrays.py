@@ -1,0 +1,121 @@
+"""Large arrays in files without a name, of which little is in memory at a time.
+
+A file is gone with the array, however the program ends.  What is resident of all of them is let go
+of again and again by a thread; it stays in the file (and in the cache of the system, as far as
+there is room), and comes back where it is looked at.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import mmap
+import os
+import shutil
+import tempfile
+import threading
+import time
+import weakref
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core import RecordingError, make_large_arrays_in, os_error_text
+
+ROOMY = Path("/var/tmp")  # noqa: S108 - files have no name there; /tmp is often in memory itself
+MOST_RESIDENT = 1 << 25  # bytes of the files in memory, before they are let go of
+EVERY_S = 0.02
+STATM = Path("/proc/self/statm")  # pages: all, resident, those of files
+MEGABYTE = 1_000_000
+
+
+def keep_large_arrays_on_disk() -> None:
+    """Make the large arrays of this program in files from now on."""
+    make_large_arrays_in(file_zeros)
+
+
+def file_zeros(shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray[Any]:
+    """Return an array of zeros in a file of its own.
+
+    Raises
+    ------
+    RecordingError
+        When there is no room for it on disk; names the folder and what was needed.
+    """
+    size = math.prod(shape) * dtype.itemsize
+    folder = room()
+    try:
+        with tempfile.TemporaryFile(dir=folder, buffering=0) as file:
+            os.posix_fallocate(file.fileno(), 0, size)  # else writing would end the program
+            pages = mmap.mmap(file.fileno(), size)
+    except OSError as error:
+        raise RecordingError(_no_room(folder, size, error)) from error
+    RESIDENT.watch(pages)
+    return np.frombuffer(pages, dtype=dtype).reshape(shape)
+
+
+def room() -> Path:
+    """Return the folder of the files: that of TMPDIR, else one that is on disk."""
+    if os.environ.get("TMPDIR") or not os.access(ROOMY, os.W_OK):
+        return Path(tempfile.gettempdir())
+    return ROOMY
+
+
+def _no_room(folder: Path, size: int, error: OSError) -> str:
+    free = shutil.disk_usage(folder).free
+    return (
+        f"an array of this long walk needs {size / MEGABYTE:.0f} MB in {folder}, where "
+        f"{free / MEGABYTE:.0f} MB are free ({os_error_text(error)}); make room there, or name "
+        "another folder by the environment variable TMPDIR"
+    )
+
+
+class Resident:
+    """Lets go of what is resident of files, in a thread that begins with the first of them."""
+
+    def __init__(self) -> None:
+        self._files: weakref.WeakSet[mmap.mmap] = weakref.WeakSet()
+        self._lock = threading.Lock()
+        self._thread: threading.Thread | None = None
+
+    def watch(self, pages: mmap.mmap) -> None:
+        """Take the pages of one more file."""
+        with self._lock:
+            self._files.add(pages)
+            if STATM.exists() and not (self._thread and self._thread.is_alive()):
+                self._thread = threading.Thread(target=self._keep_few, daemon=True)
+                self._thread.start()
+
+    def let_go(self) -> None:
+        """Leave the pages of all files to the system; what is in them stays."""
+        with self._lock:
+            files = list(self._files)
+        for pages in files:
+            pages.madvise(mmap.MADV_DONTNEED)
+
+    def _keep_few(self) -> None:
+        with STATM.open("rb", buffering=0) as pages:
+            least = _of_files(pages)
+            while not self._is_done():
+                time.sleep(EVERY_S)
+                if _of_files(pages) - least > MOST_RESIDENT:
+                    self.let_go()
+                    least = _of_files(pages)
+
+    def _is_done(self) -> bool:
+        """Return whether there are no files; then the thread ends, and another one may begin."""
+        with self._lock:
+            if not self._files:
+                self._thread = None
+            return self._thread is None
+
+
+def _of_files(pages: io.FileIO) -> int:
+    """Return how many bytes of files are resident, those of libraries too."""
+    pages.seek(0)
+    return int(pages.read().split()[2]) * mmap.PAGESIZE
+
+
+RESIDENT = Resident()

@@ -34,7 +34,7 @@ from .at_stances import (
     spacing_constraint,
     spacing_learner,
 )
-from .schmidt import considered_states, considered_update, known_states
+from .schmidt import considered_states, considered_update, known_states, stance_gain
 
 MODULES = (
     closest,
@@ -44,6 +44,7 @@ MODULES = (
     considered_states,
     known_states,
     considered_update,
+    stance_gain,
     measurement_update,
     stance_correction,
     zero_velocity,

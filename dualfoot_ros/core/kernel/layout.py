@@ -5,6 +5,8 @@ filter (which a snapshot copies), its constants, scratch space, the history of s
 ring of snapshots.  All offsets are compile-time constants but for the two rings at the end.
 """
 
+lanes = range  # of a loop no turn of which needs another: a compiler takes several at once
+
 # --- state: what a snapshot copies -------------------------------------------------------------
 FOOT = 40  # stride from the left foot's nominal state to the right foot's
 POS = 0  # position, m

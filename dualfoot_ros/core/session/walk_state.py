@@ -172,8 +172,9 @@ class WalkState:
             return None if done == lay.END_ASK else []
         moment, target = self.space.n.item(lay.N_MOMENT), found[lay.X_TARGET]
         outcome = method.outcome(self.estimate, found, target, heading)
-        apply = partial(method.apply, target=target, heading=heading)
-        roll_back.note(Action(moment, apply, doubted))
+        if outcome.accepted:
+            apply = partial(method.apply, target=target, heading=heading)
+            roll_back.note(Action(moment, apply, doubted))
         return [Event(EventKind.CONSTRAINT, self.gait.stamp(moment), FEET[foot], now, *outcome)]
 
     @property

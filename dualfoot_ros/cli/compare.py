@@ -190,6 +190,7 @@ def _write(
     rows: list[dict[str, Any]],
     document: dict[str, Any],
 ) -> list[Path]:
+    from ..evaluation.batch import default_jobs
     from ..evaluation.reports import csv_text, report_folder, write_json
     from ..evaluation.reports.html import write_comparison_page
 
@@ -197,15 +198,19 @@ def _write(
         paths = [write_json(folder / "compare.json", document), folder / "compare.csv"]
         paths[1].write_text(csv_text(rows), encoding="utf-8")
         if not args.no_plots:
-            paths += _draw(entries, rows, folder)
+            paths += _draw(entries, rows, folder, args.jobs or default_jobs())
             paths.append(write_comparison_page(folder, entries, rows, document["failed"]))
     return [args.output / path.name for path in paths]
 
 
-def _draw(entries: Sequence[Entry], rows: list[dict[str, Any]], folder: Path) -> list[Path]:
+def _draw(
+    entries: Sequence[Entry], rows: list[dict[str, Any]], folder: Path, processes: int
+) -> list[Path]:
+    """Draw a figure a bag, which takes as long as some runs on it, and one a swept parameter."""
+    from ..evaluation.batch import run_all
     from ..evaluation.reports.plots import draw_compared, draw_sweep
 
-    paths = []
+    figures = []
     bags = list(dict.fromkeys(entry.bag for entry in entries))
     for index, bag in enumerate(bags):
         own = [entry for entry in entries if entry.bag == bag and entry.case.swept is None]
@@ -213,7 +218,8 @@ def _draw(entries: Sequence[Entry], rows: list[dict[str, Any]], folder: Path) ->
         taken = any(Path(other).name == name for other in bags[:index])
         path = folder / f"tracks_{name}{f'_{index}' if taken else ''}.png"
         if own:
-            paths.append(draw_compared(own, path, name))
+            figures.append((own, path, name))
+    paths = run_all(draw_compared, figures, processes)
     swept = dict.fromkeys(row["swept"] for row in rows if row["swept"] is not None)
     return paths + [
         draw_sweep(rows, name, folder / f"sweep_{name.replace('.', '_')}.png") for name in swept

@@ -76,7 +76,7 @@ def _average(series: ImuSeries) -> ImuSeries:
         return series
     count = len(series) // size * size
     force, turn = (
-        v[:count].reshape(-1, size, 3).mean(axis=1)
+        _sum([v[k:count:size] for k in range(size)]) / size
         for v in (series.specific_force, series.angular_rate)
     )
     return ImuSeries(series.stamp_ns[size - 1 : count : size], force, turn)
@@ -127,22 +127,21 @@ def _least_within(values: FloatArray, size: int) -> FloatArray:
 
 def _cycles(series: ImuSeries, starts: IntArray, size: int) -> list[tuple[int, int]]:
     """Return the pairs of successive windows with one step between their middles."""
-    rate_hz = series.rate_hz  # a median over all samples: once
+    off = np.abs(np.linalg.norm(series.specific_force, axis=1) - STANDARD_GRAVITY)
+    stamps, rate_hz = (series.stamp_ns[starts + size // 2]).tolist(), series.rate_hz
     return [
         (a, b)
-        for a, b in itertools.pairwise(starts.tolist())
-        if _is_cycle(series, rate_hz, a + size // 2, b + size // 2)
+        for (a, b), (first, last) in zip(
+            itertools.pairwise(starts.tolist()), itertools.pairwise(stamps), strict=True
+        )
+        if _lasts_a_step((last - first) * 1e-9, (b - a) / rate_hz)
+        and off[a + size // 2 : b + size // 2].max() > SWING
     ]
 
 
-def _is_cycle(series: ImuSeries, rate_hz: float, first: int, last: int) -> bool:
-    """Return whether the foot makes one step between two samples, and none is missing."""
-    duration_s = float(series.stamp_ns[last] - series.stamp_ns[first]) * 1e-9
-    due_s = (last - first) / rate_hz
-    if not SPAN_S[0] < duration_s < SPAN_S[1] or abs(duration_s - due_s) > IRREGULAR_S:
-        return False
-    norms = np.linalg.norm(series.specific_force[first:last], axis=1)
-    return bool(np.abs(norms - STANDARD_GRAVITY).max() > SWING)
+def _lasts_a_step(duration_s: float, due_s: float) -> bool:
+    """Return whether a span lasts as long as a step, and no sample is missing in it."""
+    return SPAN_S[0] < duration_s < SPAN_S[1] and abs(duration_s - due_s) <= IRREGULAR_S
 
 
 def _gather(

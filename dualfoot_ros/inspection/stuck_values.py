@@ -73,7 +73,7 @@ def find_stuck(series: ImuSeries) -> tuple[Stuck, ...]:
         return ()
     triads = series.specific_force, series.angular_rate
     seconds = (series.stamp_ns - series.stamp_ns[0]) * 1e-9
-    same = [np.diff(column) == 0.0 for triad in triads for column in triad.T]
+    same = [column for triad in triads for column in (triad[1:] == triad[:-1]).T]
     sensor = _runs(np.logical_and.reduce(same))
     whole = [run for run in sensor if _is_stuck(triads, seconds, run)]
     if whole:
@@ -130,6 +130,8 @@ def _mode(column: FloatArray) -> tuple[float, float, bool]:
 
 def _runs(same: BoolArray) -> list[Run]:
     """Return the long stretches of samples of which each is the ``same`` (N - 1,) as the next."""
+    if np.count_nonzero(same) < LEAST_SAMPLES - 1:
+        return []
     edges = np.flatnonzero(np.diff(np.concatenate(([0], same.astype(np.int8), [0]))))
     runs = edges.reshape(-1, 2)
     long = runs[runs[:, 1] - runs[:, 0] + 1 >= LEAST_SAMPLES]

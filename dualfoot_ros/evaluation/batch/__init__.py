@@ -3,7 +3,7 @@
 from .cases import Case, Sweep, case_names, make_cases
 from .comparison import Entry, Job, by_bag, compare_one
 from .monte_carlo import Score, WalkJob, WalkScores, score_walk, summarise
-from .parallel import Failure, default_jobs, run_each, run_groups
+from .parallel import Failure, default_jobs, run_all, run_each, run_groups
 
 __all__ = [
     "Case",
@@ -19,6 +19,7 @@ __all__ = [
     "compare_one",
     "default_jobs",
     "make_cases",
+    "run_all",
     "run_each",
     "run_groups",
     "score_walk",

@@ -6,9 +6,9 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
-from ...core import DualFootError
+from ...core import DualFootError, EvaluationError
 from .cluster import run_on_cluster
 from .workers import Workers
 
@@ -95,3 +95,25 @@ def _attempt(function: Callable[[Item], Result], item: Item) -> Result | Failure
             raise
         where = f"'{error.filename}': " if error.filename else ""
         return Failure(f"{where}{error.strerror}")
+
+
+def run_all(
+    function: Callable[..., Result], items: Sequence[tuple[Any, ...]], jobs: int
+) -> list[Result]:
+    """Return what ``function`` makes of the arguments in every item, in their order.
+
+    Raises
+    ------
+    EvaluationError
+        When one of them is refused; the others are given up.
+    """
+    results: dict[int, Result] = {}
+    for done in run_each(partial(_called, function), items, jobs):
+        if isinstance(done.result, Failure):
+            raise EvaluationError(done.result.sentence)
+        results[done.index] = done.result
+    return [results[index] for index in sorted(results)]
+
+
+def _called(function: Callable[..., Result], arguments: tuple[Any, ...]) -> Result:
+    return function(*arguments)

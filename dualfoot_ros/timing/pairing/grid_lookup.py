@@ -110,12 +110,13 @@ class GridLookup:
 
     def _between(self, series: ImuSeries, at: IntArray) -> FloatArray:
         """Return force and rate (K, 6) at places (K,) of the grid at which they are known."""
-        before, after = (
-            np.hstack([series.specific_force[rows], series.angular_rate[rows]])
-            for rows in (self.before[at], self.after[at])
-        )
+        exact = self.exact[at]
+        before = _force_and_rate(series, self.before[at])
+        if exact.all():  # the samples themselves, as of a foot whose stamps the grid has
+            return before
+        after = _force_and_rate(series, self.after[at])
         inside = between_rows(before, after, self.weight[at], self.width_s[at])
-        return np.where(self.exact[at][:, None], before, inside)
+        return np.where(exact[:, None], before, inside)
 
     def _values(self, column: FloatArray, kept: BoolArray) -> FloatArray:
         values = np.full((int(kept.sum()), 3), np.nan)
@@ -124,3 +125,7 @@ class GridLookup:
         line = before + (after - before) * self.weight[good][:, None]
         values[there] = np.where(self.exact[good][:, None], before, line)
         return values
+
+
+def _force_and_rate(series: ImuSeries, rows: IntArray) -> FloatArray:
+    return np.hstack([series.specific_force[rows], series.angular_rate[rows]])

@@ -81,12 +81,19 @@ def all_finite(values: list[float]) -> bool:
     return all(-INFINITE < value < INFINITE for value in values)
 
 
-def finite_rows(values: FloatArray) -> BoolArray:
-    """Return (N,) where all numbers of ``values`` (N, K) are finite, and so are their squares."""
-    finite = np.abs(values) < INFINITE
-    if finite.all():  # the usual case, without a search of each short row
-        return np.ones(len(values), dtype=bool)
-    return np.asarray(finite.all(axis=1))
+def finite_samples(series: ImuSeries) -> BoolArray:
+    """Return (N,) where all numbers of a sample are finite, and so are their squares."""
+    triads = series.specific_force, series.angular_rate
+    if all(_are_finite(values) for values in triads):  # the usual case, without a look at each
+        return np.ones(len(series), dtype=bool)
+    force, rate = ((np.abs(values) < INFINITE).all(axis=1) for values in triads)
+    return np.asarray(force & rate)
+
+
+def _are_finite(values: FloatArray) -> bool:
+    if not values.size:
+        return True
+    return bool(values.max() < INFINITE and values.min() > -INFINITE)  # false for nan
 
 
 def finite_samples(series: ImuSeries) -> BoolArray:

@@ -2,8 +2,8 @@
 
 import pytest
 
-from dualfoot_ros.core.errors import DualFootError
-from dualfoot_ros.evaluation.batch.parallel import Failure, run_each
+from dualfoot_ros.core.errors import DualFootError, EvaluationError
+from dualfoot_ros.evaluation.batch.parallel import Failure, run_all, run_each
 
 
 def halved(number: int) -> float:
@@ -31,3 +31,14 @@ def test_every_item_is_done_once_and_what_is_refused_is_a_sentence_while_the_oth
 def test_a_defect_is_not_hidden(jobs):
     with pytest.raises(ZeroDivisionError):
         list(run_each(halved, [4, 1000], jobs))
+
+
+def quotient(number: int, by: int) -> float:
+    return halved(number) * 2 / by
+
+
+@pytest.mark.parametrize("jobs", (1, 2))
+def test_what_is_needed_of_every_item_comes_in_their_order_or_not_at_all(jobs):
+    assert run_all(quotient, [(6, 2), (4, 1), (9, 3)], jobs) == [3.0, 4.0, 3.0]
+    with pytest.raises(EvaluationError, match="-1 is negative"):
+        run_all(quotient, [(6, 2), (-1, 1)], jobs)

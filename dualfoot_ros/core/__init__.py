@@ -66,7 +66,7 @@ from .rotation import (
     turn_quaternions,
     yaw_quaternion,
 )
-from .samples.by_block import row_blocks, row_distances, row_lengths, unwrapped_angles
+from .samples.by_block import picked, row_blocks, row_distances, row_lengths, unwrapped_angles
 from .samples.increments import Increments
 from .samples.large_arrays import make_large_arrays_in, new_array, placed
 from .samples.mounting import (
@@ -183,6 +183,7 @@ __all__ = [
     "new_array",
     "os_error_text",
     "parameter",
+    "picked",
     "placed",
     "quaternion_matrices",
     "quaternion_matrix",

@@ -19,6 +19,7 @@ class GaitHistory:
     def __init__(self, space: Workspace) -> None:
         """Look at ``space``."""
         self._space, self._ring = space, space.ring
+        self._n, self._stamps = space.n, space.stamps
         self.period_s = 1.0 / space.rate_hz
         self.ended = [-1, -1]
 
@@ -42,16 +43,16 @@ class GaitHistory:
 
     def in_stance(self, foot: int, epoch: int) -> bool:
         """Return whether ``foot`` had zero velocity at ``epoch``."""
-        flags = self._space.n.item(lay.N_FLAGS + epoch % self._ring)
+        flags = self._n.item(lay.N_FLAGS + epoch % self._ring)
         return bool((flags >> foot) & 1)
 
     @property
     def uneven(self) -> bool:
         """Whether stamps are so uneven that a swing tells no velocity of the landing."""
-        newest = self.now
+        newest = self._n.item(lay.N_EPOCH)
         count = min(self._ring, newest + 1)
         # Nearly always all are nearly nominal, and to look at each of them takes long.
-        if self._space.n.item(lay.N_UNEVEN) <= newest - count:
+        if self._n.item(lay.N_UNEVEN) <= newest - count:
             return False
         steps = self._space.w[lay.RINGS : lay.RINGS + lay.SAMPLE * count : lay.SAMPLE]
         if steps.max() - steps.min() < 0.99 * UNEVEN_S:
@@ -61,7 +62,7 @@ class GaitHistory:
 
     def remembers(self, epoch: int) -> bool:
         """Return whether the filter can be rolled back to just after ``epoch``."""
-        n = self._space.n
+        n = self._n
         return bool(n.item(lay.N_OLDEST) <= epoch + 1 <= n.item(lay.N_EPOCH))
 
     def positions_after(self, epoch: int) -> FloatArray:
@@ -72,7 +73,7 @@ class GaitHistory:
 
     def stamp(self, epoch: int, default: int = 0) -> int:
         """Return the stamp in ns of ``epoch``, or ``default`` when it is forgotten."""
-        newest, ring = self._space.n.item(lay.N_EPOCH), self._ring
-        if not newest - ring < epoch <= newest:
-            return default
-        return self._space.stamps.item(epoch % ring)
+        newest = self._n.item(lay.N_EPOCH)
+        if newest - self._ring < epoch <= newest:
+            return self._stamps.item(epoch % self._ring)
+        return default

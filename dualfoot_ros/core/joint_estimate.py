@@ -70,10 +70,7 @@ def nothing_done(payload: Payload, reason: StrEnum, size: int = 0) -> Outcome:
 
 
 class Touchdown(NamedTuple):
-    """The velocity (3,) m/s of a foot when its stance began, and its NIS.
-
-    The NIS is -1 where the stance has begun before all that is remembered.
-    """
+    """The velocity (3,) m/s of a foot when its stance began, and its NIS, that of `landing`."""
 
     nis: float
     velocity: list[float]
@@ -90,6 +87,8 @@ class JointEstimate:
         """Look at the present state of ``workspace``."""
         self._space, self._engine = workspace, engine
         self._x = np.zeros(lay.X_SIZE)
+        # what an update was given and its S: the innovation, the noise, then S
+        self._measured = self._x[lay.X_Y : lay.X_BEFORE].reshape(2 + lay.ROWS_MOST, lay.ROWS_MOST)
 
     def position(self, foot: int) -> FloatArray:
         """Return the position (3,) m of foot 0 (left) or 1 (right)."""
@@ -164,8 +163,8 @@ class JointEstimate:
         ``r`` (3,) m with |r| > c0 is the estimated separation, ``p`` (3, 3) m^2 its covariance.  A
         hard c0 that the uncertain directions cannot reach gives a zero row: nothing is done.
         """
-        x = np.empty(lay.M_SIZE)
-        x[: lay.M_AXES] = [*r, *p[0], *p[1], *p[2]]
+        x = np.empty(lay.X_SIZE)
+        x[lay.M_R : lay.M_AXES] = [*r, *p[0], *p[1], *p[2]]
         self._engine.closest(x, c0, std)
         direction: list[float] = x[lay.M_DIRECTION : lay.M_PUSH].tolist()
         return direction, float(x[lay.M_PUSH]), float(x[lay.M_NOISE])
@@ -218,27 +217,31 @@ class JointEstimate:
     ) -> tuple[int, list[float]]:
         """Do what a ``rule`` says at the end of the stance of ``foot``, in the kernel.
 
-        Returns what was done, END_DONE or another, and the array as `act` does.
+        Returns what was done, END_DONE or another, and what is told of that (X_TOLD,).
         """
         w, n, x = self._space.w, self._space.n, self._x
         ahead = math.cos(heading), math.sin(heading)
         done = self._engine.end_stance(w, n, x, rule, learnt, foot, *ahead, gate, since)
-        return done, x.tolist() if done == lay.END_DONE else []
+        return done, x[: lay.X_TOLD].tolist() if done == lay.END_DONE else []
 
     def measured(self, rows: int) -> tuple[FloatArray, FloatArray]:
         """Return innovation (m,) and S (m, m) of the ``rows`` that `act` has updated with."""
-        kept = self._x[lay.X_Y : lay.X_BEFORE].copy()
-        S = kept[lay.X_S - lay.X_Y :].reshape(lay.ROWS_MOST, lay.ROWS_MOST)
-        return kept[:rows], S[:rows, :rows]
+        kept = self._measured.copy()
+        return kept[0, :rows], kept[2 : 2 + rows, :rows]
+
+    def landing(self, foot: int, std: float) -> float:
+        """Return the NIS of the velocity with which foot 0 or 1 came to its present stance.
+
+        A landing has a velocity of ``std`` m/s beside what the state says.  The NIS is -1 where
+        the stance has begun before all that is remembered.
+        """
+        nis: float = self._engine.landing(self._space.w, self._space.n, self._x, foot, std)
+        return nis
 
     def touchdown(self, foot: int, std: float) -> Touchdown:
-        """Return how foot 0 or 1 came to its present stance.
-
-        A landing has a velocity of ``std`` m/s beside what the state says.
-        """
-        space, x = self._space, self._x
-        nis: float = self._engine.landing(space.w, space.n, x, foot, std)
-        return Touchdown(nis, x[lay.X_VELOCITY : lay.X_VELOCITY + 3].tolist())
+        """Return how foot 0 or 1 came to its present stance, as `landing` does."""
+        nis = self.landing(foot, std)
+        return Touchdown(nis, self._x[lay.X_VELOCITY : lay.X_VELOCITY + 3].tolist())
 
     def update_with(self, cross: FloatArray, innovation: float, s: float) -> float:
         """Update with one measurement whose statistics are known; return the NIS.

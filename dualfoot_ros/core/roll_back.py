@@ -89,24 +89,23 @@ class RollBack:
             outcomes = [self._outcome(action) for action in fresh]
         for action, outcome in zip(fresh, outcomes, strict=True):
             if outcome.accepted:
-                self._keep(action)
-        self._forget_old()
+                self._actions.append(action)
+                self.newest = max(self.newest, action.epoch)
+        if len(self._actions) > ACTIONS:
+            self._forget_old()
         return outcomes
 
     def note(self, action: Action) -> None:
-        """Take note of what the kernel has applied by itself."""
-        self._keep(action)
-        self._forget_old()
-
-    def _keep(self, action: Action) -> None:
+        """Take note of what the kernel has applied by itself, after all others."""
         self._actions.append(action)
-        self.newest = max(self.newest, action.epoch)
+        self.newest = action.epoch
+        if len(self._actions) > ACTIONS:
+            self._forget_old()
 
     def _forget_old(self) -> None:
-        """Forget what no roll-back can reach, now and then."""
-        if len(self._actions) > ACTIONS:
-            oldest = self._space.oldest
-            self._actions = [action for action in self._actions if action.epoch >= oldest]
+        """Forget what no roll-back can reach."""
+        oldest = self._space.oldest
+        self._actions = [action for action in self._actions if action.epoch >= oldest]
 
     def _outcome(self, action: Action) -> Outcome:
         """Apply an action to the present state."""

@@ -7,6 +7,7 @@ kernel has its own, in place, in ``kernel/strapdown.py`` and ``kernel/turn.py``.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -102,8 +103,13 @@ def exact_rotation(turn: FloatArray) -> FloatArray:
 
 def turn_between(before: FloatArray, after: FloatArray) -> float:
     """Return the turn about the vertical between two R_nb (3, 3), rad, however the sensor sits."""
-    (a, b, c), (d, e, f) = before[:2].tolist()
-    (u, v, w), (x, y, z) = after[:2].tolist()
+    return turn_of_rows(before[:2].ravel().tolist(), after[:2].ravel().tolist())
+
+
+def turn_of_rows(before: Sequence[float], after: Sequence[float]) -> float:
+    """Return the same of the first two rows (6,) of both matrices."""
+    a, b, c, d, e, f = before
+    u, v, w, x, y, z = after
     across = (x * a + y * b + z * c) - (u * d + v * e + w * f)
     return math.atan2(across, (u * a + v * b + w * c) + (x * d + y * e + z * f))
 

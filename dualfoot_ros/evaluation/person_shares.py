@@ -18,6 +18,7 @@ from ..core import (
     IntArray,
     Trajectory,
     new_array,
+    picked,
     row_blocks,
 )
 
@@ -35,7 +36,7 @@ def person_shares(trajectory: Trajectory, rows: slice | IntArray | BoolArray = A
 def person_position(trajectory: Trajectory, rows: slice | IntArray) -> FloatArray:
     """Return the position (K, 3) m between the sensors of the feet that are there."""
     a, b = person_shares(trajectory, rows)[:, :, None]
-    left, right = trajectory.left.position[rows], trajectory.right.position[rows]
+    left, right = (picked(f.position, rows) for f in (trajectory.left, trajectory.right))
     position: FloatArray = a * left + b * right
     return position
 

@@ -12,8 +12,10 @@ from ..core import (
     FootTrajectory,
     IntArray,
     Trajectory,
-    placed,
+    new_array,
+    picked,
     quaternion_matrices,
+    row_blocks,
 )
 from .frames.association import Footfalls, seconds
 from .gait import forward_axis
@@ -65,7 +67,6 @@ class PersonTrack:
 def person_track(trajectory: Trajectory) -> PersonTrack:
     """Return the person's track of both feet, or of the foot that has samples."""
     feet = trajectory.left, trajectory.right
-    shares = person_shares(trajectory)
     stood = [(foot, Footfalls.of(foot)) for foot in feet]
     steps = (np.diff(f.walked(foot.position, foot.stamp_ns), prepend=0.0) for foot, f in stood)
     floors = (_floor(foot, f) for foot, f in stood)
@@ -74,22 +75,31 @@ def person_track(trajectory: Trajectory) -> PersonTrack:
         stamp_ns=feet[0].stamp_ns,
         position=person_positions(trajectory),
         covariance=PersonCovariances(trajectory),
-        heading=placed(_mean_heading(shares, *headings)),
-        floor_m=placed(_shared(shares, *floors)),
-        walked_m=placed(np.cumsum(_shared(shares, *steps))),
+        heading=_mean_heading(trajectory, *headings),
+        floor_m=_shared(trajectory, *floors),
+        walked_m=_summed(_shared(trajectory, *steps)),
     )
 
 
-def _shared(shares: FloatArray, left: FloatArray, right: FloatArray) -> FloatArray:
-    """Return the mean (N,) of what both feet say."""
-    mean: FloatArray = shares[0] * left + shares[1] * right
+def _shared(trajectory: Trajectory, left: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the mean (N,) of what both feet say, by their shares in the person."""
+    mean = new_array(left.shape)
+    for part in row_blocks(len(mean)):
+        a, b = person_shares(trajectory, part)
+        mean[part] = a * left[part] + b * right[part]
     return mean
+
+
+def _summed(steps: FloatArray) -> FloatArray:
+    """Return the sums (N,) up to each of the steps, in their place."""
+    sums: FloatArray = np.cumsum(steps, out=steps)
+    return sums
 
 
 def _floor(foot: FootTrajectory, falls: Footfalls) -> FloatArray:
     """Return the height (N,) m of a foot where it stands; as it is without any stance."""
     height = foot.position[:, 2]
-    return _held(foot, falls, height[falls.middle]) if len(falls) else height
+    return _held(foot, falls, picked(height, falls.middle)) if len(falls) else height
 
 
 def _held(foot: FootTrajectory, falls: Footfalls, values: FloatArray) -> FloatArray:
@@ -104,11 +114,11 @@ def _heading(foot: FootTrajectory, falls: Footfalls) -> FloatArray:
     axis = forward_axis(foot, falls)
     if axis is None:
         return np.zeros(len(foot))
-    ahead = quaternion_matrices(foot.quaternion[falls.middle]) @ axis
+    ahead = quaternion_matrices(picked(foot.quaternion, falls.middle)) @ axis
     return _held(foot, falls, np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0])))
 
 
-def _mean_heading(shares: FloatArray, left: FloatArray, right: FloatArray) -> FloatArray:
+def _mean_heading(trajectory: Trajectory, left: FloatArray, right: FloatArray) -> FloatArray:
     """Return the mean of two unwrapped headings (N,), whole turns apart or not."""
     turns = np.round((right[0] - left[0]) / (2 * np.pi)) * 2 * np.pi if len(left) else 0.0
-    return _shared(shares, left, right - turns)
+    return _shared(trajectory, left, right - turns)

@@ -15,6 +15,7 @@ from ..core import (
     FootTrajectory,
     IntArray,
     Trajectory,
+    picked,
     stance_bounds,
     swing_passings,
 )
@@ -102,7 +103,7 @@ def walk_facts(trajectory: Trajectory) -> WalkFacts:
 
 def _steps(foot: FootTrajectory, other: FootTrajectory) -> StepFacts:
     bounds = stance_bounds(foot.stance)
-    places = foot.position[(bounds[:, 0] + bounds[:, 1] - 1) // 2, :2]
+    places = picked(foot.position, (bounds[:, 0] + bounds[:, 1] - 1) // 2)[:, :2]
     lengths = np.linalg.norm(np.diff(places, axis=0), axis=1)
     strides = lengths >= LEAST_STRIDE_M
     longest = int(np.argmax(lengths)) if strides.any() else -1
@@ -189,7 +190,7 @@ def _moving_share(foot: FootTrajectory, bounds: IntArray, strides: np.ndarray) -
 def _course(foot: FootTrajectory) -> tuple[FloatArray, FloatArray]:
     """Return stamps (S,) s and unwrapped_angles directions (S,) rad of a foot's strides."""
     middles = stance_bounds(foot.stance).sum(axis=1) // 2
-    ways: FloatArray = np.diff(foot.position[middles, :2], axis=0)
+    ways: FloatArray = np.diff(picked(foot.position, middles)[:, :2], axis=0)
     long = np.linalg.norm(ways, axis=1) >= LEAST_STRIDE_M
     if not long.any():
         return np.zeros(1), np.zeros(1)

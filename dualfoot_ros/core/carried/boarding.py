@@ -63,17 +63,24 @@ class Boarding:
         self._before: Landing | None = None
         self._fast = [False, False, False]  # the newest landings: beyond the gate
         self._speeds = [0.0, 0.0]  # of the newest landings beyond the gate, m/s
+        self._quiet = True
 
     def forget(self) -> None:
         """Forget the landings before."""
         self._before = None
         self._fast = [False, False, False]
         self._speeds = [0.0, 0.0]
+        self._quiet = True
+
+    def is_usual(self, nis: float) -> bool:
+        """Return whether a landing of this NIS tells nothing, as those before: nearly always."""
+        return self._quiet and nis <= self.gate
 
     def mistrust(self) -> None:
         """Take note that something else has moved the feet: landings tell nothing for a while."""
         self._before = None
         self._fast = [True, True, True]
+        self._quiet = False
 
     def contradicts(self, velocity: FloatArray) -> bool:
         """Return whether a foot has landed as on no floor with this velocity (3,), nor off it.
@@ -86,6 +93,7 @@ class Boarding:
         """Take the stance of ``foot`` that is confirmed; return a step between floors."""
         landing = self._landing(foot, touchdown)
         before, self._before = self._before, landing
+        self._quiet = landing is None and not any(self._fast) and not any(self._speeds)
         if (
             before is None
             or self._fast[0]

@@ -67,6 +67,10 @@ class Carriage:
         self._fix()
         return [] if goes_on else [self._end(now)]
 
+    def expects(self, nis: float) -> bool:
+        """Return whether a landing of this NIS, as of a floor at rest, is nothing to look at."""
+        return self.kind is None and self._boarding.is_usual(nis)
+
     def landed(self, foot: int, touchdown: Touchdown, *, heading_known: bool) -> list[Event]:
         """Attend to a stance of ``foot`` that has been confirmed."""
         if self.kind is FloorKind.LIFT or self.kind is FloorKind.VEHICLE:

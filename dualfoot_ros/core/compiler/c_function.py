@@ -11,6 +11,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from .c_expressions import ExpressionWriter, Typed
 from .kernel_function import INTEGER, KernelFunction
+from .texts_in_c import HAS_VECTORS, TEXTS
+
+LANES = "lanes"  # of the kernel's layout: a range whose numbers can be taken several at once
+WRITTEN_OUT = 8  # turns of a loop that gcc writes out
 
 
 class FunctionWriter(ExpressionWriter):
@@ -29,8 +33,11 @@ class FunctionWriter(ExpressionWriter):
         body = list(self._block(self._function.body))
         own = self._function
         local = [f"{kind} {name};" for name, kind in own.kinds.items() if self._is_local(name)]
-        lines = "\n".join("    " + line for line in [*local, *body])
-        return f"{own.head}\n{{\n{lines}\n}}\n"
+        lines = "\n".join("    " + line for line in [*local, *body]) + "\n"
+        text = TEXTS.get(own.name)
+        if text is not None:
+            lines = f"#ifdef {HAS_VECTORS}\n{text}#else\n{lines}#endif\n"
+        return f"{own.head}\n{{\n{lines}}}\n"
 
     def _is_local(self, name: str) -> bool:
         return name not in self._function.parameters
@@ -89,6 +96,7 @@ class FunctionWriter(ExpressionWriter):
         else:
             first, stop, step = self._range(node.iter)
             taken = counter
+        yield from self._hints(node, first, stop)
         yield f"for (int64_t {counter} = {first}, {end} = {stop}; {counter} < {end};"
         yield f"     {counter} += {step}) {{"
         yield "    " + self._put(node.target, (taken, INTEGER))
@@ -97,12 +105,22 @@ class FunctionWriter(ExpressionWriter):
 
     def _range(self, node: ast.expr) -> tuple[str, str, str]:
         """Return start, stop and step of a range that goes up."""
-        if not isinstance(node, ast.Call) or ast.unparse(node.func) != "range":
+        if not isinstance(node, ast.Call) or ast.unparse(node.func) not in {"range", LANES}:
             raise self._unknown(node)
         bounds = [self._written(each)[0] for each in node.args]
         if len(bounds) == 1:
             bounds = ["0", *bounds]
         return bounds[0], bounds[1], bounds[2] if len(bounds) > 2 else "1"
+
+    def _hints(self, node: ast.For, first: str, stop: str) -> Iterator[str]:
+        """Tell the compiler what `lanes` says: no turn of the loop needs another one.
+
+        A short loop it would write out, turn by turn, before it looks for what goes at once.
+        """
+        if isinstance(node.iter, ast.Call) and ast.unparse(node.iter.func) == LANES:
+            yield "#pragma GCC ivdep"
+            if first.isdigit() and stop.isdigit() and int(stop) - int(first) <= WRITTEN_OUT:
+                yield "#pragma GCC unroll 1"
 
     def _indented(self, nodes: Sequence[ast.stmt]) -> Iterator[str]:
         for line in self._block(nodes):

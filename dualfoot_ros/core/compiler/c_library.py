@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping
 from .c_function import FunctionWriter
 from .entries import Entry, Kind
 from .kernel_function import KernelFunction
+from .texts_in_c import VECTORS
 
 PREFIX = "dualfoot_"
 HEAD = object.__basicsize__  # bytes, of every object of Python
@@ -132,7 +133,7 @@ def library_source(
     results = [_result(known[name]) for name in written if len(known[name].result) > 1]
     heads = [f"{known[name].head};" for name in written]
     adapters = [_adapter(name, entry) for name, entry in entries.items()]
-    return "\n".join([PRELUDE, *results, *heads, "", *written.values(), *adapters])
+    return "\n".join([PRELUDE, VECTORS, *results, *heads, "", *written.values(), *adapters])
 
 
 def _write(known: Mapping[str, KernelFunction], entries: Mapping[str, Entry]) -> dict[str, str]:

@@ -52,8 +52,8 @@ def _computed(functions: Calls) -> Iterator[bytes]:
     for foot in range(2):
         functions["turn"](w, 0, foot, 0.6, 0.8, np.array([0.3, 0.7]), np.array([1.0, 2.0, 0.1]))
     yield w.tobytes()
-    x = np.zeros(lay.M_SIZE)
-    x[:12] = [0.9, 0.5, -0.1, 0.4, 0.1, 0.02, 0.1, 0.3, 0.05, 0.02, 0.05, 0.2]
+    x = np.zeros(lay.X_SIZE)
+    x[lay.M_R : lay.M_AXES] = [0.9, 0.5, -0.1, 0.4, 0.1, 0.02, 0.1, 0.3, 0.05, 0.02, 0.05, 0.2]
     functions["closest"](x, 0.7, 0.05)
     yield x.tobytes()
 

@@ -121,6 +121,11 @@ class Method:
         """Whether the start of a stance is anything to it."""
         return type(self).on_stance_start is not Method.on_stance_start
 
+    @property
+    def asks_at_end(self) -> bool:
+        """Whether the end of a stance is anything to it."""
+        return type(self).on_stance_end is not Method.on_stance_end
+
     def retune(self, config: Parameters) -> None:
         """Go on with other weights and distances of ``config``."""
         self.config = config

@@ -120,15 +120,14 @@ class AtMinimumDistance(AtPassing):
     ) -> Outcome:
         """Return what came of a constraint, of what the kernel has ``found``."""
         r, error = found[lay.X_BEFORE : lay.X_NOW], found[lay.X_Y]
-        after, distance_after, reason = r, None, None
+        distance_after, reason = None, None
         exceeds = found[lay.X_EXCEEDS] != 0.0
         if exceeds:
-            after = found[lay.X_AFTER : lay.X_DISTANCE]
             distance_after = found[lay.X_DISTANCE_AFTER]
         else:
             reason = Reason.DISTANCE_WITHIN_C0 if error <= 0.0 else Reason.NO_UNCERTAINTY
         limit = DistanceLimit(found[lay.X_DISTANCE], target, distance_after)
-        passing = Passing(limit, heading, r, after)
+        passing = Passing(limit, heading, r, found[lay.X_AFTER : lay.X_DISTANCE])
         S = np.array([[found[lay.X_S]]])
         return Outcome(np.array([error]), S, nis_of(found), exceeds, passing, reason)
 

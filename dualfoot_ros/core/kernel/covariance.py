@@ -30,6 +30,7 @@ from .layout import (
     S_A,
     S_CDT,
     S_SF,
+    lanes,
 )
 from .tiles import mirror, turn_back, turn_over
 
@@ -65,7 +66,7 @@ def apply_transition(w, block, dt):
     c22 = w[S_CDT + 8]
     m = 1.0 - dt * w[C_BIAS_RATE]  # first-order Markov biases
     block &= PLACE
-    for j in range(ROW):
+    for j in lanes(ROW):
         p = block + j
         v0 = w[p + ROWS_VEL]
         v1 = w[p + ROWS_VEL + ROW]

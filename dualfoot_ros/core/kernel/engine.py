@@ -38,7 +38,7 @@ from .at_stances import (
     stance_end,
 )
 from .outputs import kept_row, output_row
-from .schmidt import considered_states, considered_update, known_states
+from .schmidt import considered_states, considered_update, known_states, stance_gain
 
 STAMPS = np.iinfo(np.int64)  # that the library takes
 MODULES = (
@@ -49,6 +49,7 @@ MODULES = (
     considered_states,
     known_states,
     considered_update,
+    stance_gain,
     measurement_update,
     stance_correction,
     zero_velocity,

@@ -5,6 +5,8 @@ filter (which a snapshot copies), its constants, scratch space, the history of s
 ring of snapshots.  All offsets are compile-time constants but for the two rings at the end.
 """
 
+lanes = range  # of a loop no turn of which needs another: a compiler takes several at once
+
 # --- state: what a snapshot copies -------------------------------------------------------------
 FOOT = 40  # stride from the left foot's nominal state to the right foot's
 POS = 0  # position, m
@@ -138,28 +140,28 @@ Z_RIGHT = Z_LEFT + ZUPT_INFO
 GLRT_LEFT = Z_RIGHT + ZUPT_INFO
 GLRT_RIGHT = GLRT_LEFT + 1
 
-# --- the array of `closest`, beside ``w`` --------------------------------------------------------
-M_R = 0  # separation of the feet (3,) m
-M_P = 3  # its covariance (3, 3) m^2
-M_AXES = 12  # principal axes of it, one a row
-M_ALONG, M_VARIANCES, M_AT = 21, 24, 27  # along them: the separation, variances, the solution
-M_DIRECTION, M_PUSH, M_NOISE = 30, 33, 34  # the result: row (3,), innovation m, variance m^2
-M_SIZE = 35
-
-# --- the array of what acts at a stance, beside ``w``; it begins as that of `closest` ------------
-X_Y = M_SIZE  # innovation (3,)
+# --- the array of what acts at a stance, beside ``w`` --------------------------------------------
+X_Y = 0  # innovation (3,)
 X_NOISE = X_Y + ROWS_MOST  # variances of it that are not of the state (3,)
 X_S = X_NOISE + ROWS_MOST  # innovation covariance (3, 3)
 X_BEFORE = X_S + ROWS_MOST * ROWS_MOST  # separation of the feet (3,) m that was constrained
 X_NOW = X_BEFORE + 3  # what it is at the time of the constraint
-X_AFTER = X_NOW + 3  # the same with the constraint
+X_AFTER = X_NOW + 3  # the same as X_BEFORE with the constraint
 X_DISTANCE, X_LATERAL = X_AFTER + 3, X_AFTER + 4  # of X_BEFORE: length, component to the left, m
-X_VELOCITY = X_LATERAL + 1  # of a landing (3,) m/s
-X_NIS = X_VELOCITY + 3  # of the constraint
-X_EXCEEDS = X_NIS + 1  # 1 where the distance exceeds what it is brought to
-X_DISTANCE_AFTER = X_NIS + 2  # length at the time of the constraint, with it, m
-X_TARGET = X_NIS + 3  # distance or spacing it has been brought to, m
-X_SIZE = X_TARGET + 1
+X_DISTANCE_AFTER = X_LATERAL + 1  # length at the time of the constraint, with it, m
+X_TARGET = X_LATERAL + 2  # distance or spacing it has been brought to, m
+X_EXCEEDS = X_LATERAL + 3  # 1 where the distance exceeds that
+X_NIS = X_LATERAL + 4  # of the constraint
+X_VELOCITY = X_NIS + 1  # of a landing (3,) m/s
+X_TOLD = X_VELOCITY + 3  # what is before this is told of a constraint
+
+# --- scratch of `closest`, in the same array -----------------------------------------------------
+M_R = X_TOLD  # separation of the feet (3,) m
+M_P = M_R + 3  # its covariance (3, 3) m^2
+M_AXES = M_R + 12  # principal axes of it, one a row
+M_ALONG, M_VARIANCES, M_AT = M_R + 21, M_R + 24, M_R + 27  # along them: r, variances, solution
+M_DIRECTION, M_PUSH, M_NOISE = M_R + 30, M_R + 33, M_R + 34  # result: row (3,), m, variance m^2
+X_SIZE = M_R + 35
 
 # --- what to do at the end of a stance, where that is no question for Python ---------------------
 R_KIND = 0  # one of:

@@ -38,13 +38,11 @@ from .layout import (
     S_Y,
     SIDE,
     VEL,
+    lanes,
 )
 from .schmidt.considered_states import KNOWN, consider_all, consider_common
-from .schmidt.considered_update import (
-    clear_rest,
-    considering_gain,
-    knowing_all,
-)
+from .schmidt.considered_update import clear_rest, considering_gain
+from .schmidt.stance_gain import knowing_all
 from .strapdown import rotate_navigation, rotation_increment
 from .tiles import turn_over
 from .turn import keeps_gauge, turn_correction
@@ -55,7 +53,7 @@ def collect(w, rows):
     for k in range(rows):
         g = S_G + JOINT * k
         h = S_H + JOINT * k
-        for j in range(JOINT):
+        for j in lanes(JOINT):
             w[g + j] = 0.0
         for i in range(15):
             a = w[h + i]
@@ -133,13 +131,13 @@ def factor(w, rows):
             x = w[S_S + ROWS_MOST * m + k]  # already divided by sqrt(d_m)
             d -= x * x
             z -= x * w[S_Y + m]
-            for j in range(JOINT):
+            for j in lanes(JOINT):
                 w[g + j] -= x * w[S_G + JOINT * m + j]
         scale = 1.0 / math.sqrt(d) if d > 0.0 else 0.0
         z = z * scale
         w[S_Y + k] = z
         nis += z * z
-        for j in range(JOINT):
+        for j in lanes(JOINT):
             w[g + j] *= scale
         for m in range(k + 1, rows):
             x = w[S_S + ROWS_MOST * k + m]
@@ -148,9 +146,9 @@ def factor(w, rows):
             w[S_S + ROWS_MOST * k + m] = x * scale
     for k in range(rows, ROWS_MOST):
         w[S_Y + k] = 0.0
-        for j in range(JOINT):
+        for j in lanes(JOINT):
             w[S_G + JOINT * k + j] = 0.0
-    for j in range(JOINT):  # K y = V z
+    for j in lanes(JOINT):  # K y = V z
         w[S_DX + j] = (
             w[S_G + j] * w[S_Y]
             + w[S_G + JOINT + j] * w[S_Y + 1]
@@ -212,14 +210,14 @@ def weigh(w, side, count):
         s0 = w[S_S + k]
         s1 = w[S_S + ROWS_MOST + k]
         s2 = w[S_S + 2 * ROWS_MOST + k]
-        for j in range(count):
+        for j in lanes(count):
             x = S_K + side + j
             total = w[x] * s0 + w[x + JOINT] * s1 + w[x + 2 * JOINT] * s2
             w[S_G + JOINT * k + side + j] -= 0.5 * total
     y0 = w[S_Y]
     y1 = w[S_Y + 1]
     y2 = w[S_Y + 2]
-    for j in range(count):
+    for j in lanes(count):
         x = S_K + side + j
         w[S_DX + side + j] = w[x] * y0 + w[x + JOINT] * y1 + w[x + 2 * JOINT] * y2
 
@@ -236,7 +234,7 @@ def take_products(w, block, a, b):
         k0 = w[S_K + a + i]
         k1 = w[S_K + JOINT + a + i]
         k2 = w[S_K + 2 * JOINT + a + i]
-        for j in range(ROW):
+        for j in lanes(ROW):
             m = S_G + b + j
             k = S_K + b + j
             # the two products of a pair stay the same when i and j change places

@@ -2,7 +2,6 @@
 
 from .layout import (
     C_BIAS_KNOWN_VAR,
-    CONSIDERED_FOOT,
     DIAGONAL,
     E_ATT,
     E_BA,
@@ -18,10 +17,11 @@ from .layout import (
     S_G,
     S_K,
     SIDE,
+    lanes,
 )
 from .measurement_update import factor, feed_back, feed_back_foot, take_products, weigh
 from .schmidt.considered_states import KNOWN, consider_all, consider_foot
-from .schmidt.considered_update import knowing_all, knowing_foot
+from .schmidt.stance_gain import knowing_all, knowing_foot
 from .tiles import turn_over
 
 
@@ -43,11 +43,9 @@ def correct_stance(w, foot, still):
     if foot == 0:  # for the right one they are there already
         turn_over(w, PLR, KNOWN, E_BA)
     nis = knowing_all(w)
-    for side in range(2):
-        clear_known(w, SIDE * side)
     if still:
         for k in range(ROWS_MOST):
-            for j in range(SIDE):
+            for j in lanes(SIDE):
                 w[S_K + JOINT * k + SIDE * (1 - foot) + j] = 0.0
         clear_place(w, SIDE * foot)
     weigh(w, 0, JOINT)
@@ -65,20 +63,12 @@ def correct_alone(w, foot, block, side, still):
     """Do what `correct_stance` does for a foot that is uncorrelated with the other."""
     consider_foot(w, block, side)
     nis = knowing_foot(w, block, side)
-    clear_known(w, side)
     if still:
         clear_place(w, side)
     weigh(w, side, SIDE)
     take_products(w, block, side, side)
     feed_back_foot(w, foot)
     return nis
-
-
-def clear_known(w, side):
-    """Let the gain leave heading and gyro bias of the foot at ``side`` alone."""
-    for k in range(ROWS_MOST):
-        for c in range(CONSIDERED_FOOT):
-            w[S_K + JOINT * k + side + KNOWN + c] = 0.0
 
 
 def clear_place(w, side):
@@ -98,7 +88,7 @@ def correct_standing(w, foot):
     nis = factor(w, ROWS_MOST)
     own = SIDE * foot
     other = SIDE * (1 - foot)
-    for j in range(SIDE):
+    for j in lanes(SIDE):
         w[S_DX + other + j] = 0.0
     for j in range(15):
         if considered_standing(j):

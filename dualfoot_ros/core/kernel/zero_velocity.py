@@ -47,6 +47,7 @@ from .layout import (
     Z_NIS,
     Z_S,
     ZUPT_INFO,
+    lanes,
 )
 from .measurement_update import correct
 from .stance_correction import bias_known, correct_alone, correct_stance, correct_standing
@@ -167,7 +168,7 @@ def collect_other(w, block, side, to):
         b0 = w[h + E_BG]
         b1 = w[h + E_BG + 1]
         b2 = w[h + E_BG + 2]
-        for j in range(ROW):
+        for j in lanes(ROW):
             p = block + j
             w[S_G + JOINT * k + to + j] = (
                 w[p + ROWS_VEL + ROW * k]
@@ -184,5 +185,5 @@ def clear_side(w, side):
     """Set P H' of the foot at ``side`` to zero."""
     side &= PLACE
     for k in range(ROWS_MOST):
-        for j in range(SIDE):
+        for j in lanes(SIDE):
             w[S_G + JOINT * k + side + j] = 0.0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,8 +13,7 @@ from ..samples.series import FloatArray
 UNKNOWN_VARIANCE = math.pi**2 / 3.0  # rad^2, of an angle of which nothing is known
 
 
-@dataclass(frozen=True)
-class Facing:
+class Facing(NamedTuple):
     """References of both feet, from which their headings follow at any attitude of the sensors.
 
     Attributes

@@ -20,6 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..samples.by_block import picked
 from ..samples.series import BoolArray, FloatArray, IntArray
 from .events import FEET, EventKind
 from .trajectory import FootTrajectory, Trajectory, stance_bounds
@@ -68,7 +69,7 @@ def swing_passings(
     )
     index = np.array([middle for middle, _ in swings], dtype=np.int64)
     way = np.reshape([direction for _, direction in swings], (-1, 2))
-    apart = left[index] - right[index]
+    apart = picked(left, index) - picked(right, index)
     lateral = way[:, 0] * apart[:, 1] - way[:, 1] * apart[:, 0]
     return SwingPassings(index, lateral, np.linalg.norm(apart, axis=1))
 

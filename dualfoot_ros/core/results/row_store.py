@@ -12,15 +12,15 @@ from ..kernel import layout as lay
 from ..samples.large_arrays import new_array
 from ..samples.series import BoolArray, FloatArray, IntArray
 from .covariances import CELLS, UPPER, Covariances
-from .events import Event
-from .rows import clean_stance, turn_rows, zupt_nis
+from .events import FEET, Event
+from .rows import clean_stance, turn_covariances, turn_nominal, zupt_nis
 from .trajectory import FootTrajectory, Trajectory
 
 NOMINAL = lay.KEPT  # position, velocity and quaternion stand side by side
 OF_FOOT = (lay.O_COV_POS, lay.O_COV_VEL, lay.O_COV_ATT)
 BLOCKS = (*OF_FOOT, *(lay.O_FOOT + block for block in OF_FOOT), lay.O_RELATIVE)
 TRIANGLES = tuple(np.array([block + cell for cell in UPPER]) for block in BLOCKS)
-SQUARES = np.array([block + cell for block in BLOCKS for cell in range(9)])
+CELLS_OF_ALL = len(CELLS) * len(BLOCKS)
 
 
 class RowStore:
@@ -34,7 +34,7 @@ class RowStore:
         self._nis = new_array((count, 2))
         kept = len(TRIANGLES) if covariances else 0  # apart: each can be let go by itself
         self._triangles = [new_array((count, len(UPPER))) for _ in range(kept)]
-        self._turned = np.empty((0, len(SQUARES)))  # covariances of the rows that were turned
+        self._turned = np.empty((0, CELLS_OF_ALL))  # covariances of the rows that were turned
         self._newest, self._heading_std = -1, math.nan  # of the newest row, which no turn changes
 
     @property
@@ -72,25 +72,25 @@ class RowStore:
 
     def turn(self, count: int, event: Event) -> None:
         """Turn the first ``count`` rows as a HEADING event says."""
-        rows = self._rows(count)
-        turn_rows(rows, event)
-        self._put_nominal(slice(count), rows)
+        turn, foot = event.turn, FEET.index(event.foot)
+        turn_nominal(self._nominal[foot][:count], turn)
         if self._with_covariances:
-            self._turned = np.concatenate([rows[:, SQUARES], self._turned[count:]])
+            self._make_whole(count)
+            starts = range(0, CELLS_OF_ALL, len(CELLS))
+            blocks = [self._turned[:count, start : start + len(CELLS)] for start in starts]
+            own = blocks[len(OF_FOOT) * foot : len(OF_FOOT) * (foot + 1)]
+            turn_covariances(own, blocks[-1], turn, foot)
 
-    def _put_nominal(self, places: slice | list[int], rows: FloatArray) -> None:
+    def _put_nominal(self, places: list[int], rows: FloatArray) -> None:
         for foot, nominal in enumerate(self._nominal):
             nominal[places] = rows[:, foot * lay.O_FOOT : foot * lay.O_FOOT + NOMINAL]
 
-    def _rows(self, count: int) -> FloatArray:
-        """Return what is kept of the first rows (count, OUT), in its places."""
-        rows = np.zeros((count, lay.OUT))
-        for foot, nominal in enumerate(self._nominal):
-            rows[:, foot * lay.O_FOOT : foot * lay.O_FOOT + NOMINAL] = nominal[:count]
-        for number, block in enumerate(BLOCKS if self._with_covariances else ()):
-            matrices = self._covariances(number)[:count]
-            rows[:, block : block + len(CELLS)] = matrices.reshape(-1, len(CELLS))
-        return rows
+    def _make_whole(self, count: int) -> None:
+        """Have whole matrices of the first rows, as a turn leaves no symmetric ones."""
+        first = len(self._turned)
+        if count > first:
+            more = [triangles[first:count, CELLS] for triangles in self._triangles]
+            self._turned = np.concatenate([self._turned, np.hstack(more)])
 
     def _covariances(self, number: int) -> Covariances:
         """Return the covariances of one of BLOCKS, nan where they are not kept."""

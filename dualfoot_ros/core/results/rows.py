@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -41,38 +41,51 @@ def zupt_event(row: FloatArray, foot: int, stamp_ns: int) -> Event | None:
 
 
 def turn_rows(rows: FloatArray, event: Event) -> None:
-    """Turn and move one foot's part of ``rows`` (N, OUT) in place, as a HEADING event says.
+    """Turn and move one foot's part of ``rows`` (N, OUT) in place, as a HEADING event says."""
+    turn, foot = event.turn, FEET.index(event.foot)
+    part = rows[:, foot * lay.O_FOOT : (foot + 1) * lay.O_FOOT]
+    turn_nominal(part, turn)
+    innovation = part[:, lay.O_ZUPT : lay.O_ZUPT + 3]
+    innovation[:] = turn.vectors(innovation)
+    own = [part[:, start : start + 9] for start in (lay.O_COV_POS, lay.O_COV_VEL, lay.O_COV_ATT)]
+    turn_covariances(own, rows[:, lay.O_RELATIVE : lay.O_RELATIVE + 9], turn, foot)
+    _turn(part[:, lay.O_ZUPT + 3 : lay.O_ZUPT + 12], turn)
+
+
+def turn_nominal(part: FloatArray, turn: YawTurn) -> None:
+    """Turn and move the nominal states of a foot, which each row of ``part`` begins with."""
+    velocity = part[:, lay.O_VEL : lay.O_VEL + 3]
+    velocity[:] = turn.vectors(velocity)
+    position, quaternion = part[:, lay.O_POS : lay.O_POS + 3], part[:, lay.O_QUAT : lay.O_QUAT + 4]
+    position[:], quaternion[:] = turn.positions(position), turn.quaternions(quaternion)
+
+
+def turn_covariances(
+    own: Sequence[FloatArray], relative: FloatArray, turn: YawTurn, foot: int
+) -> None:
+    """Turn a foot's covariances (N, 9) of position, velocity and attitude, and the ``relative``.
 
     Until both headings are known the feet are uncorrelated, so that the covariance of the
     separation changes as the foot's own does; when both feet turn together (``joint``), it turns
     as a whole, with the left one.
     """
-    turn, foot = event.turn, FEET.index(event.foot)
-    part = rows[:, foot * lay.O_FOOT : (foot + 1) * lay.O_FOOT]
-    for start in (lay.O_VEL, lay.O_ZUPT):
-        vectors = part[:, start : start + 3]
-        vectors[:] = turn.vectors(vectors)
-    position, quaternion = part[:, lay.O_POS : lay.O_POS + 3], part[:, lay.O_QUAT : lay.O_QUAT + 4]
-    position[:], quaternion[:] = turn.positions(position), turn.quaternions(quaternion)
-    relative = rows[:, lay.O_RELATIVE : lay.O_RELATIVE + 9]
-    own = part[:, lay.O_COV_POS : lay.O_COV_POS + 9]
     if not turn.joint:
-        relative -= own
-    for start in (lay.O_COV_POS, lay.O_COV_VEL, lay.O_COV_ATT, lay.O_ZUPT + 3):
-        _turn_covariances(part[:, start : start + 9], turn)
+        relative -= own[0]
+    for cells in own:
+        _turn(cells, turn)
     if not turn.joint:
-        relative += own
+        relative += own[0]
     elif foot == 0:
-        _turn_covariances(relative, turn)
+        _turn(relative, turn)
 
 
-def _turn_covariances(cells: FloatArray, turn: YawTurn) -> None:
+def _turn(cells: FloatArray, turn: YawTurn) -> None:
     matrices(cells)[:] = turn.covariances(matrices(cells))
 
 
 def clean_stance(stamps: IntArray, events: Iterable[Event], foot: int) -> np.ndarray:
     """Return (N,) bool: the stance phases as they were confirmed, from the events."""
-    stance = np.zeros(len(stamps), dtype=bool)
+    bounds: list[int] = []  # the first and the last stamp of each, one after the other
     open_at: int | None = None
     for event in events:
         if event.foot != FEET[foot]:
@@ -80,9 +93,11 @@ def clean_stance(stamps: IntArray, events: Iterable[Event], foot: int) -> np.nda
         if event.kind is EventKind.STANCE_START:
             open_at = event.stamp_ns
         elif event.kind is EventKind.STANCE_END and open_at is not None:
-            first, last = np.searchsorted(stamps, [open_at, event.stamp_ns + 1])
-            stance[first:last] = True
+            bounds += open_at, event.stamp_ns + 1
             open_at = None
+    stance = np.zeros(len(stamps), dtype=bool)
+    for first, last in np.searchsorted(stamps, bounds).reshape(-1, 2).tolist():
+        stance[first:last] = True
     if open_at is not None:
         stance[np.searchsorted(stamps, open_at) :] = True
     return stance

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..samples.by_block import picked
 from ..samples.series import BoolArray, FloatArray, IntArray
 from .covariances import Covariances
 from .events import Event, EventKind
@@ -57,7 +58,7 @@ class FootTrajectory:
     @property
     def distance_m(self) -> float:
         """Walked distance: the horizontal way from stance to stance."""
-        anchors = self.position[stance_middles(self.stance)][:, :2]
+        anchors = picked(self.position, stance_middles(self.stance))[:, :2]
         return float(np.linalg.norm(np.diff(anchors, axis=0), axis=1).sum())
 
     def cut(self, keep: BoolArray | slice) -> FootTrajectory:

@@ -7,18 +7,34 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .series import FloatArray
+from .large_arrays import rest
+from .series import FloatArray, IntArray
 
 BLOCK = 1 << 14  # rows: what they need stays in the cache of the processor
+FEW = 1 << 11  # rows that are far from each other
 
 
 def row_blocks(count: int) -> Iterator[slice]:
     """Yield the parts of ``count`` rows, in order."""
     for start in range(0, count, BLOCK):
         yield slice(start, min(start + BLOCK, count))
+        rest()
+
+
+def picked(rows: NDArray[Any], at: IntArray | slice) -> NDArray[Any]:
+    """Return the rows (K, ...) of an array that an index takes, as ``rows[at]``."""
+    if isinstance(at, slice) or len(at) <= FEW:
+        return rows[at]
+    found = np.empty((len(at), *rows.shape[1:]), dtype=rows.dtype)
+    for start in range(0, len(at), FEW):
+        found[start : start + FEW] = rows[at[start : start + FEW]]
+        rest()
+    return found
 
 
 def row_lengths(vectors: FloatArray) -> FloatArray:

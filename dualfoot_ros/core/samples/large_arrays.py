@@ -7,25 +7,31 @@ on disk (``recording.storage.file_arrays``); all arrays of a walk that grow with
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from contextvars import ContextVar
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 LARGE = 1 << 24  # bytes from which on an array is made in that place
 Shape = tuple[int, ...]
-Place = Callable[[Shape, np.dtype[Any]], NDArray[Any]]
+
+
+class Place(Protocol):
+    """Where large arrays are made, and what of them is in memory."""
+
+    def new(self, shape: Shape, dtype: np.dtype[Any]) -> NDArray[Any]:
+        """Return an array of zeros."""
+
+    def rest(self) -> None:
+        """Let go of what is in memory where that is much: a block of rows is done."""
+
 
 _place: ContextVar[Place | None] = ContextVar("place", default=None)
 
 
 def make_large_arrays_in(place: Place | None) -> None:
-    """Make the large arrays of this program by ``place`` from now on; None is memory again.
-
-    It returns an array of zeros of a shape and a type.
-    """
+    """Make the large arrays of this program in ``place`` from now on; None is memory again."""
     _place.set(place)
 
 
@@ -34,7 +40,14 @@ def new_array(shape: Shape, dtype: Any = np.float64) -> NDArray[Any]:
     place, kind = _place.get(), np.dtype(dtype)
     if place is None or math.prod(shape) * kind.itemsize < LARGE:
         return np.zeros(shape, dtype=kind)
-    return place(shape, kind)
+    return place.new(shape, kind)
+
+
+def rest() -> None:
+    """Tell the place of large arrays that a block of their rows is done."""
+    place = _place.get()
+    if place is not None:
+        place.rest()
 
 
 def placed(values: NDArray[Any]) -> NDArray[Any]:

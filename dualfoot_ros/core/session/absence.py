@@ -53,6 +53,9 @@ class Presence(StrEnum):
     LEVELLED = "levelled"
 
 
+JOINED = Presence.JOINED  # asked at each stance: a look into an enumeration takes long
+
+
 class Absences:
     """The presence of both feet, and what is done when it changes."""
 
@@ -70,7 +73,7 @@ class Absences:
     @property
     def none(self) -> bool:
         """Whether both feet are joined."""
-        return self.of[0] is Presence.JOINED and self.of[1] is Presence.JOINED
+        return self.of[0] is JOINED and self.of[1] is JOINED
 
     def gone(self, foot: int, stamp: int, *, standing: bool) -> Event:
         """Take note that ``foot`` has no sample at ``stamp``, as it has had before it."""

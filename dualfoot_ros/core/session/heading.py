@@ -18,7 +18,7 @@ from ..kernel import layout as lay
 from ..results.events import FEET, Event, EventKind
 from ..results.facing import Facing
 from ..results.payloads import YawTurn
-from ..rotation import about_z, mean_angle, turn_between
+from ..rotation import about_z, mean_angle, turn_between, turn_of_rows
 from ..samples.series import FloatArray
 from .initial_state import InitialState
 
@@ -159,7 +159,7 @@ class Headings:
         strides = self._strides[foot]
         if strides is None:
             if walking:
-                self._follow(foot)
+                self.follow(foot)
             return []
         start = foot * lay.FOOT + lay.POS
         position = self._space.w[start : start + 3].copy()
@@ -175,16 +175,21 @@ class Headings:
         self._reference[foot] = (rotation, ahead)
         self._initial.aim(foot, rotation.T @ np.array([math.cos(ahead), math.sin(ahead), 0.0]))
         turned = turn(self._space, engine, foot, by, direction.pivot, np.zeros(3), stamp=stamp)
-        self._follow(foot)
+        self.follow(foot)
         return [turned]
 
-    def _follow(self, foot: int) -> None:
+    def follows(self, foot: int) -> bool:
+        """Whether the heading of ``foot`` is followed from a reference of its sensor."""
+        return self._strides[foot] is None and self._reference[foot] is not None
+
+    def follow(self, foot: int) -> None:
         """Take the heading of ``foot`` from how its sensor has turned since the reference."""
         known = self._reference[foot]
         if known is None:
             known = self._reference[foot] = (self._rotation(foot), self.forward)
-        rotation, heading = known
-        heading += turn_between(rotation, self._rotation(foot))
+        start = foot * lay.FOOT + lay.ROT
+        now = self._space.w[start : start + 6].tolist()
+        heading = known[1] + turn_of_rows(known[0].ravel().tolist()[:6], now)
         self.feet = (heading, self.feet[1]) if foot == 0 else (self.feet[0], heading)
 
     def _forward_at(self, direction: Direction) -> float:

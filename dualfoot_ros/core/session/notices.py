@@ -15,12 +15,13 @@ from ..kernel import layout as lay
 from ..kernel.at_stances.stance_end import lag_of
 from ..results.events import FEET, Event, EventKind
 from .absence import Presence
-from .lost_track import lost_speed
+from .lost_track import LOST_GATE, lost_speed
 from .walk_state import WalkState
 
 Found = list[Event]
 FALSE = (lay.STANCE_FALSE | lay.SWING_FALSE) * (1 + (1 << lay.NOTICE_SHIFT))
 PRESENCE = 3 * (lay.NOTICE_GONE | lay.NOTICE_BACK)  # bits of both feet
+UNUSUAL = FALSE | PRESENCE | lay.NOTICE_FLOOR | 3 * lay.NOTICE_STOOD
 
 
 class Notices:
@@ -35,21 +36,28 @@ class Notices:
         """Do what the newest epoch's notices ask for."""
         walk = self._walk
         notices = walk.space.n.item(lay.N_NOTICE)
-        bits = [notices & 15, notices >> lay.NOTICE_SHIFT]
+        found = self._unusual(notices) if notices & UNUSUAL else []
+        for foot in range(2):
+            bits = notices >> (foot * lay.NOTICE_SHIFT)
+            if bits & lay.STANCE_CONFIRMED:
+                found += self._stance_confirmed(foot)
+            elif bits & lay.STANCE_ENDED:
+                found += self._stance_ended(foot)
+        if notices & lay.NOTICE_WATCH and walk.coupled:
+            found += walk.constrain("both", walk.method, walk.method.on_epoch(walk.gait))
+        return found
+
+    def _unusual(self, notices: int) -> Found:
+        """Attend to what comes before a stance that starts or ends, if anything does."""
+        walk = self._walk
         if notices & FALSE:
-            walk.roll_back.clean_phases(bits)
+            walk.roll_back.clean_phases([notices & 15, notices >> lay.NOTICE_SHIFT])
         found = self._presence(notices) if notices & PRESENCE else []
         if notices & lay.NOTICE_FLOOR:
             found += self._floor()
         for foot in range(2):
             if notices & (lay.NOTICE_STOOD << foot):
                 walk.stands.take(foot, walk.gait.stamp(walk.space.epoch))
-            if bits[foot] & lay.STANCE_CONFIRMED:
-                found += self._stance_confirmed(foot)
-            elif bits[foot] & lay.STANCE_ENDED:
-                found += self._stance_ended(foot)
-        if notices & lay.NOTICE_WATCH and walk.coupled:
-            found += walk.constrain("both", walk.method, walk.method.on_epoch(walk.gait))
         return found
 
     def _floor(self) -> Found:
@@ -92,22 +100,39 @@ class Notices:
         space, gait = walk.space, walk.gait
         stamp, now = gait.stamp(space.foot(foot, "N_START")), gait.stamp(space.epoch)
         found = [Event(EventKind.STANCE_START, stamp, FEET[foot], now)]
-        touchdown = walk.estimate.touchdown(foot, LANDING_STD)
-        speed = lost_speed(touchdown)
-        if speed is not None and not gait.uneven:
-            found += self._lost(foot, speed, stamp, now)
-            touchdown = walk.estimate.touchdown(foot, LANDING_STD)  # it may be forgotten by now
-        if walk.watches_floor:
-            found += walk.carriage.landed(foot, touchdown, heading_known=walk.headings.known)
+        nis = walk.estimate.landing(foot, LANDING_STD)
+        if nis > LOST_GATE or not walk.carriage.expects(nis):
+            found += self._landed(foot, stamp, now)
         if walk.absences.of[foot] is Presence.BACK:
             walk.absences.level(foot)
             walk.forget()
         found += self._turn(foot, now)
-        asked = [each for each in self._askable(foot) if each.asks_at_start]
-        phase = self._phase(foot, space.epoch) if asked else None
-        for method in asked:
-            assert phase is not None
-            found += walk.constrain(FEET[foot], method, method.on_stance_start(phase, gait))
+        if walk.aids or walk.method.asks_at_start:
+            found += self._ask_at_start(foot)
+        return found
+
+    def _ask_at_start(self, foot: int) -> Found:
+        """Apply what the aids and the method ask for at the start of a stance of ``foot``."""
+        walk = self._walk
+        found: Found = []
+        phase = self._phase(foot, walk.space.epoch)
+        for method in self._askable(foot):
+            if method.asks_at_start:
+                requests = method.on_stance_start(phase, walk.gait)
+                found += walk.constrain(FEET[foot], method, requests)
+        return found
+
+    def _landed(self, foot: int, stamp: int, now: int) -> Found:
+        """Attend to a landing that may be none: the foot is lost, or on another floor."""
+        walk = self._walk
+        found: Found = []
+        touchdown = walk.estimate.touchdown(foot, LANDING_STD)
+        speed = lost_speed(touchdown)
+        if speed is not None and not walk.gait.uneven:
+            found += self._lost(foot, speed, stamp, now)
+            touchdown = walk.estimate.touchdown(foot, LANDING_STD)  # it may be forgotten by now
+        if walk.watches_floor:
+            found += walk.carriage.landed(foot, touchdown, heading_known=walk.headings.known)
         return found
 
     def _lost(self, foot: int, speed: float, landed: int, now: int) -> Found:
@@ -121,12 +146,19 @@ class Notices:
         walk.absences.lost(foot, since, landed, speed)
         walk.carriage.interrupted()
         walk.watch()
+        walk.heading_changed()
         return [Event(EventKind.LOST, since, FEET[foot], now)]
 
     def _turn(self, foot: int, now: int) -> Found:
         """Turn a foot, or both, when this stance tells where the walk heads."""
         walk = self._walk
-        turned = walk.headings.stance(walk.engine, foot, now, walk.phase == "walking")
+        walking = walk.phase == "walking"
+        if walk.headings.follows(foot):
+            if walking:
+                walk.headings.follow(foot)
+                walk.headings_followed()
+            return []
+        turned = walk.headings.stance(walk.engine, foot, now, walking)
         walk.heading_changed()
         if turned and walk.headings.known:
             turned += walk.join_pair(now)
@@ -149,20 +181,29 @@ class Notices:
 
     def _stance_ended(self, foot: int) -> Found:
         walk = self._walk
+        gait = walk.gait
         last = walk.space.foot(foot, "N_LEAVE") - 1
-        now = walk.gait.stamp(walk.space.epoch)
-        found = [Event(EventKind.STANCE_END, walk.gait.stamp(last, now), FEET[foot], now)]
+        now = gait.stamp(walk.space.epoch)
+        found = [Event(EventKind.STANCE_END, gait.stamp(last, now), FEET[foot], now)]
         walk.phase = "walking"
-        walk.gait.ended[foot] = last
+        gait.ended[foot] = last
         found += self._learn_bias(foot, now)
-        done = walk.end_in_kernel(foot)
+        done = walk.end_in_kernel(foot, now)
         if done is not None:
             return found + done
-        phase = self._phase(foot, last)
-        for method in self._askable(foot):
-            found += walk.constrain(FEET[foot], method, method.on_stance_end(phase, walk.gait))
+        if walk.aids or walk.method.asks_at_end:
+            found += self._ask_at_end(foot, self._phase(foot, last))
         if walk.absences.can_join(foot):
-            found += self._join(foot, phase, now)
+            found += self._join(foot, self._phase(foot, last), now)
+        return found
+
+    def _ask_at_end(self, foot: int, phase: StancePhase) -> Found:
+        """Apply what the aids and the method ask for at the end of a stance of ``foot``."""
+        walk = self._walk
+        found: Found = []
+        for method in self._askable(foot):
+            requests = method.on_stance_end(phase, walk.gait)
+            found += walk.constrain(FEET[foot], method, requests)
         return found
 
     def _join(self, foot: int, phase: StancePhase, now: int) -> Found:
@@ -193,13 +234,4 @@ class Notices:
 
 
 def _stood_event(foot: int, now: int, outcome: Outcome) -> Event:
-    return Event(
-        EventKind.STOOD,
-        now,
-        FEET[foot],
-        now,
-        outcome.innovation,
-        outcome.S,
-        outcome.nis,
-        payload=outcome.payload,
-    )
+    return Event(EventKind.STOOD, now, FEET[foot], now, *outcome)

@@ -17,7 +17,7 @@ from ..joint_estimate import JointEstimate, Outcome
 from ..kernel import Engine, Workspace
 from ..kernel import layout as lay
 from ..misfit import MISFIT
-from ..results.events import FEET, Event
+from ..results.events import FEET, Event, EventKind
 from ..results.facing import Facing
 from ..results.payloads import Reason
 from ..roll_back import Action, RollBack
@@ -55,17 +55,25 @@ class WalkState:
         self.absences = Absences(config, space, self.headings, self.gait)
         self.phase = "standing"
         self._facing: Facing | None = None
+        self._followed = False  # headings have changed since
 
     @property
     def facing(self) -> Facing:
         """Where the feet head in their axes, as far as that is known."""
         if self._facing is None:
             self._facing = self.headings.facing()
+        elif self._followed:
+            self._facing = self._facing._replace(stances=self.headings.present)
+        self._followed = False
         return self._facing
 
     def heading_changed(self) -> None:
         """Take note that `facing` is another one from now on."""
         self._facing = None
+
+    def headings_followed(self) -> None:
+        """Take note that both feet head elsewhere, and nothing else has changed of it."""
+        self._followed = True
 
     def use(self, engine: Engine) -> None:
         """Go on with another form of the kernel."""
@@ -141,10 +149,10 @@ class WalkState:
             found.append(self._event(foot, request, outcome))
         return found
 
-    def end_in_kernel(self, foot: int) -> list[Event] | None:
+    def end_in_kernel(self, foot: int, now: int) -> list[Event] | None:
         """Let the kernel do what the method would ask for at the end of the stance of ``foot``.
 
-        None where it is to be asked.
+        None where it is to be asked; ``now`` is the newest stamp.
         """
         method = self.method
         if not isinstance(method, AtPassing) or method.rule is None or self.aids:
@@ -164,9 +172,10 @@ class WalkState:
             return None if done == lay.END_ASK else []
         moment, target = self.space.n.item(lay.N_MOMENT), found[lay.X_TARGET]
         outcome = method.outcome(self.estimate, found, target, heading)
-        apply = partial(method.apply, target=target, heading=heading)
-        roll_back.note(Action(moment, apply, doubted))
-        return [self._event(FEET[foot], Request(moment, True, apply), outcome)]
+        if outcome.accepted:
+            apply = partial(method.apply, target=target, heading=heading)
+            roll_back.note(Action(moment, apply, doubted))
+        return [Event(EventKind.CONSTRAINT, self.gait.stamp(moment), FEET[foot], now, *outcome)]
 
     @property
     def doubted(self) -> Sequence[int]:
@@ -183,10 +192,5 @@ class WalkState:
             self.gait.stamp(request.epoch),
             foot,
             self.gait.stamp(self.space.epoch),
-            outcome.innovation,
-            outcome.S,
-            outcome.nis,
-            outcome.accepted,
-            outcome.payload,
-            outcome.reason,
+            *outcome,
         )

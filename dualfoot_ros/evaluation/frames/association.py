@@ -13,6 +13,7 @@ from ...core import (
     IntArray,
     PoseSeries,
     new_array,
+    picked,
     stance_bounds,
     stance_middles,
 )
@@ -111,7 +112,7 @@ class Footfalls:
         """
         if len(self) == 0:
             return np.zeros(len(stamp_ns))
-        steps = np.linalg.norm(np.diff(position[self.middle, :2], axis=0), axis=1)
+        steps = np.linalg.norm(np.diff(picked(position, self.middle)[:, :2], axis=0), axis=1)
         way = np.concatenate([[0.0], np.cumsum(steps)])
         origin = int(stamp_ns[0])
         time = seconds(stamp_ns, origin)

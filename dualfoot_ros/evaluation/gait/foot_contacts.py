@@ -19,6 +19,7 @@ from ...core import (
     FloatArray,
     FootTrajectory,
     new_array,
+    picked,
     placed,
     quaternion_matrices,
     row_blocks,
@@ -133,7 +134,7 @@ def forward_axis(track: FootTrajectory, falls: Footfalls) -> FloatArray | None:
     lengths = np.linalg.norm(ways, axis=1)
     long = np.flatnonzero(lengths >= LEAST_STRIDE_M)
     ahead = np.column_stack([ways[long] / lengths[long, np.newaxis], np.zeros(len(long))])
-    to_body = np.swapaxes(quaternion_matrices(track.quaternion[falls.middle]), 1, 2)
+    to_body = np.swapaxes(quaternion_matrices(picked(track.quaternion, falls.middle)), 1, 2)
     axes = (to_body[long] @ ahead[:, :, np.newaxis])[:, :, 0]
     after = (to_body[long + 1] @ ahead[:, :, np.newaxis])[:, :, 0]
     x, y, z = (axes * after).T

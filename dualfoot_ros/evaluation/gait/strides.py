@@ -13,7 +13,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ...core import FEET, FloatArray, FootTrajectory, quaternion_matrices
+from ...core import FEET, FloatArray, FootTrajectory, picked, quaternion_matrices
 from ..frames.association import Footfalls, seconds
 from .foot_contacts import FootContacts, find_contacts, forward_axis
 
@@ -134,7 +134,7 @@ class _Foot:
         time = seconds(track.stamp_ns, int(track.stamp_ns[0]))
         axis = forward_axis(track, falls)
         ahead = np.array([1.0, 0.0, 0.0]) if axis is None else axis
-        faced = quaternion_matrices(track.quaternion[falls.middle]) @ ahead
+        faced = quaternion_matrices(picked(track.quaternion, falls.middle)) @ ahead
         place = falls.mean(track.position)
         bounds = np.reshape(falls.bounds, (-1, 2))
         return cls(

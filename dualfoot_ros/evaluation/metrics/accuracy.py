@@ -11,6 +11,7 @@ from ...core import (
     FloatArray,
     FootTrajectory,
     PoseSeries,
+    picked,
     row_blocks,
     row_lengths,
     unwrapped_angles,
@@ -89,8 +90,8 @@ def stride_errors(estimate: FootTrajectory, truth: PoseSeries, falls: Footfalls)
         nan = float("nan")
         return StrideErrors(0, nan, nan, nan, nan)
     heading = heading_error(estimate.quaternion, truth.quaternion)[at]
-    moved = turned(np.diff(estimate.position[at], axis=0), -heading[:-1])
-    true = np.diff(truth.position[at], axis=0)
+    moved = turned(np.diff(picked(estimate.position, at), axis=0), -heading[:-1])
+    true = np.diff(picked(truth.position, at), axis=0)
     size = np.linalg.norm(moved - true, axis=1)
     length = [np.linalg.norm(v[:, :2], axis=1).sum() for v in (moved, true)]
     return StrideErrors(

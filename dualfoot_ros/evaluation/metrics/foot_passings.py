@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import FloatArray, FootTrajectory, IntArray, swing_passings
+from ...core import FloatArray, FootTrajectory, IntArray, picked, swing_passings
 from .accuracy import Statistics, statistics
 
 
@@ -43,10 +43,11 @@ def feet_report(
     passed = swing_passings(left.position, right.position, left.stance, right.stance)
     passed = passed.where(left.present & right.present)
     at = constrained if len(constrained) else passed.index
-    apart = np.linalg.norm(left.position[at] - right.position[at], axis=1)
+    apart = np.linalg.norm(picked(left.position, at) - picked(right.position, at), axis=1)
     error, crossed = None, None
     if truth is not None:
-        error = statistics(apart - np.linalg.norm(truth[0][at] - truth[1][at], axis=1))
+        true = np.linalg.norm(picked(truth[0], at) - picked(truth[1], at), axis=1)
+        error = statistics(apart - true)
         crossed = (
             swing_passings(*truth, left.stance, right.stance)
             .where(left.present & right.present)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core import Covariances, FloatArray, FootTrajectory, IntArray, PoseSeries
+from ...core import Covariances, FloatArray, FootTrajectory, IntArray, PoseSeries, picked
 from ..frames.between_poses import turns_between
 
 SMALLEST_STD = 1e-4
@@ -55,7 +55,7 @@ def consistency(
     (left_p, left_v, left_a), (right_p, right_v, right_a) = rows
     at = np.concatenate(middles)
     (left, right), (true_left, true_right) = (
-        [each.position[at] for each in both] for both in (feet, truth)
+        [picked(each.position, at) for each in both] for both in (feet, truth)
     )
     apart = left - right - (true_left - true_right)
     return Consistency(
@@ -75,14 +75,15 @@ def _foot(
     """Return the mean NEES of position, of velocity where it is known, and of attitude."""
     velocity = None
     if true.velocity is not None:
-        off = foot.velocity[at] - true.velocity[at]
+        off = picked(foot.velocity, at) - picked(true.velocity, at)
         velocity = _mean(off, foot.velocity_covariance, at)
     attitude = float("nan")
     if len(at):
-        turned = turns_between(true.quaternion[at], foot.quaternion[at])
+        turned = turns_between(picked(true.quaternion, at), picked(foot.quaternion, at))
         own = Covariances.of(foot.attitude_covariance[at])
         attitude = _mean(turned, own, np.arange(len(at)))
-    position = _mean(foot.position[at] - true.position[at], foot.position_covariance, at)
+    apart = picked(foot.position, at) - picked(true.position, at)
+    position = _mean(apart, foot.position_covariance, at)
     return position, velocity, attitude
 
 

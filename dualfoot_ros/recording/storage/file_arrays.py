@@ -27,33 +27,13 @@ from ...core import RecordingError, make_large_arrays_in, os_error_text
 ROOMY = Path("/var/tmp")  # noqa: S108 - files have no name there; /tmp is often in memory itself
 MOST_RESIDENT = 1 << 25  # bytes of the files in memory, before they are let go of
 EVERY_S = 0.02
-STATM = Path("/proc/self/statm")  # pages: all, resident, those of files
+STATM = "/proc/self/statm"
 MEGABYTE = 1_000_000
 
 
 def keep_large_arrays_on_disk() -> None:
     """Make the large arrays of this program in files from now on."""
-    make_large_arrays_in(file_zeros)
-
-
-def file_zeros(shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray[Any]:
-    """Return an array of zeros in a file of its own.
-
-    Raises
-    ------
-    RecordingError
-        When there is no room for it on disk; names the folder and what was needed.
-    """
-    size = math.prod(shape) * dtype.itemsize
-    folder = room()
-    try:
-        with tempfile.TemporaryFile(dir=folder, buffering=0) as file:
-            os.posix_fallocate(file.fileno(), 0, size)  # else writing would end the program
-            pages = mmap.mmap(file.fileno(), size)
-    except OSError as error:
-        raise RecordingError(_no_room(folder, size, error)) from error
-    RESIDENT.watch(pages)
-    return np.frombuffer(pages, dtype=dtype).reshape(shape)
+    make_large_arrays_in(FILES)
 
 
 def room() -> Path:
@@ -72,21 +52,45 @@ def _no_room(folder: Path, size: int, error: OSError) -> str:
     )
 
 
-class Resident:
-    """Lets go of what is resident of files, in a thread that begins with the first of them."""
+class Files:
+    """The files of a program, and what of them is resident.
+
+    It is let go of between blocks of rows, and by a thread, for all that does not work by block.
+    """
 
     def __init__(self) -> None:
         self._files: weakref.WeakSet[mmap.mmap] = weakref.WeakSet()
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
+        self._least = 0
 
-    def watch(self, pages: mmap.mmap) -> None:
-        """Take the pages of one more file."""
-        with self._lock:
-            self._files.add(pages)
-            if STATM.exists() and not (self._thread and self._thread.is_alive()):
-                self._thread = threading.Thread(target=self._keep_few, daemon=True)
-                self._thread.start()
+    def new(self, shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray[Any]:
+        """Return an array of zeros in a file of its own.
+
+        Raises
+        ------
+        RecordingError
+            When there is no room for it on disk; names the folder and what was needed.
+        """
+        size = math.prod(shape) * dtype.itemsize
+        folder = room()
+        try:
+            with tempfile.TemporaryFile(dir=folder, buffering=0) as file:
+                os.posix_fallocate(file.fileno(), 0, size)  # else writing would end the program
+                pages = mmap.mmap(file.fileno(), size)
+        except OSError as error:
+            raise RecordingError(_no_room(folder, size, error)) from error
+        self._watch(pages)
+        return np.frombuffer(pages, dtype=dtype).reshape(shape)
+
+    def rest(self) -> None:
+        """Let go of what is resident where that is more than a little."""
+        resident = _of_files()
+        if resident - self._least > MOST_RESIDENT:
+            self.let_go()
+            self._least = _of_files()
+        elif resident < self._least:
+            self._least = resident
 
     def let_go(self) -> None:
         """Leave the pages of all files to the system; what is in them stays."""
@@ -95,14 +99,18 @@ class Resident:
         for pages in files:
             pages.madvise(mmap.MADV_DONTNEED)
 
+    def _watch(self, pages: mmap.mmap) -> None:
+        with self._lock:
+            self._files.add(pages)
+            if not (self._thread and self._thread.is_alive()):
+                self._least = _of_files()
+                self._thread = threading.Thread(target=self._keep_few, daemon=True)
+                self._thread.start()
+
     def _keep_few(self) -> None:
-        with STATM.open("rb", buffering=0) as pages:
-            least = _of_files(pages)
-            while not self._is_done():
-                time.sleep(EVERY_S)
-                if _of_files(pages) - least > MOST_RESIDENT:
-                    self.let_go()
-                    least = _of_files(pages)
+        while not self._is_done():
+            time.sleep(EVERY_S)
+            self.rest()
 
     def _is_done(self) -> bool:
         """Return whether there are no files; then the thread ends, and another one may begin."""
@@ -112,10 +120,16 @@ class Resident:
             return self._thread is None
 
 
-def _of_files(pages: io.FileIO) -> int:
-    """Return how many bytes of files are resident, those of libraries too."""
-    pages.seek(0)
-    return int(pages.read().split()[2]) * mmap.PAGESIZE
+def _of_files() -> int:
+    """Return how many bytes of files are resident, those of libraries too; 0 where none can tell.
+
+    The system tells it in pages: all, resident, those of files.
+    """
+    try:
+        with io.FileIO(STATM) as told:
+            return int(told.read().split()[2]) * mmap.PAGESIZE
+    except OSError:
+        return 0
 
 
-RESIDENT = Resident()
+FILES = Files()

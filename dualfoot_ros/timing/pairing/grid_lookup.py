@@ -110,10 +110,11 @@ class GridLookup:
 
     def _between(self, series: ImuSeries, at: IntArray) -> FloatArray:
         """Return force and rate (K, 6) at places (K,) of the grid at which they are known."""
-        before, exact = _samples(series, self.before[at]), self.exact[at]
-        if exact.all():  # as of a foot whose stamps the grid has
+        exact = self.exact[at]
+        before = _force_and_rate(series, self.before[at])
+        if exact.all():  # the samples themselves, as of a foot whose stamps the grid has
             return before
-        after = _samples(series, self.after[at])
+        after = _force_and_rate(series, self.after[at])
         inside = between_rows(before, after, self.weight[at], self.width_s[at])
         return np.where(exact[:, None], before, inside)
 
@@ -126,6 +127,5 @@ class GridLookup:
         return values
 
 
-def _samples(series: ImuSeries, rows: IntArray) -> FloatArray:
-    """Return force and rate (K, 6) of some samples."""
+def _force_and_rate(series: ImuSeries, rows: IntArray) -> FloatArray:
     return np.hstack([series.specific_force[rows], series.angular_rate[rows]])

@@ -82,20 +82,16 @@ def all_finite(values: list[float]) -> bool:
 
 
 def finite_samples(series: ImuSeries) -> BoolArray:
-    """Return (N,) where all six numbers of a sample are finite, and so are their squares."""
-    triads = series.specific_force, series.angular_rate
-    if all(_are_finite(values) for values in triads):  # the usual case, without a look at each
-        return np.ones(len(series), dtype=bool)
-    finite = np.empty(len(series), dtype=bool)
+    """Return (N,) where all numbers of a sample are finite, and so are their squares."""
+    finite = np.ones(len(series), dtype=bool)
     for part in row_blocks(len(series)):
-        force, rate = ((np.abs(values[part]) < INFINITE).all(axis=1) for values in triads)
-        finite[part] = force & rate
+        for values in (series.specific_force[part], series.angular_rate[part]):
+            if not _are_finite(values):  # seldom, so that each is looked at then only
+                finite[part] &= (np.abs(values) < INFINITE).all(axis=1)
     return finite
 
 
 def _are_finite(values: FloatArray) -> bool:
-    if not values.size:
-        return True
     return bool(values.max() < INFINITE and values.min() > -INFINITE)  # false for nan
 
 

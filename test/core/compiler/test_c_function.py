@@ -12,6 +12,7 @@ from dualfoot_ros.core.compiler.c_library import library_source
 from dualfoot_ros.core.compiler.entries import Entry, Kind
 from dualfoot_ros.core.compiler.kernel_function import TranslationError
 from dualfoot_ros.core.compiler.shared_library import make_library
+from dualfoot_ros.core.kernel.tiles import transpose_tile
 
 LIMIT = 0.7
 W, N, ROWS, INTEGER, X = Kind.REALS, Kind.INTEGERS, Kind.ROWS, Kind.INTEGER, Kind.REAL
@@ -226,3 +227,20 @@ def test_what_has_no_translation_is_named(function, named):
         library_source({name: function}, {name: Entry((W,))})
     assert str(refused.value).startswith(f"{name} of the kernel has '")
     assert named in str(refused.value)
+
+
+def test_a_tile_is_turned_over_by_the_text_in_c_as_in_python(tmp_path):
+    if not shared_library.can_compile():
+        pytest.skip("needs a C compiler (cc), on Linux")
+    entries = {"transpose_tile": Entry((W, INTEGER, INTEGER, INTEGER, INTEGER))}
+    source = library_source({"transpose_tile": transpose_tile}, entries)
+    made = []
+    for k, text in enumerate((source, source.replace("__has_builtin", "__has_none_of_them"))):
+        compiled = make_library(tmp_path / f"{k}.so", text, entries, lambda _: True)
+        for rows, columns in ((4, 4), (3, 4), (4, 3)):
+            found = [np.arange(200.0), np.arange(200.0)]
+            compiled["transpose_tile"](found[0], 5, 106, rows, columns)
+            transpose_tile(found[1], 5, 106, rows, columns)
+            assert np.array_equal(*found)
+            made.append(found[0].tobytes())
+    assert made[:3] == made[3:] and len(set(made)) == 3

@@ -5,7 +5,7 @@ import pytest
 
 from dualfoot_ros.core.compiler import compiled
 from dualfoot_ros.core.compiler.same_bits import same_bits
-from dualfoot_ros.core.kernel import ENTRIES
+from dualfoot_ros.core.kernel import ENTRIES, MODULES
 from dualfoot_ros.core.kernel import layout as lay
 
 
@@ -51,3 +51,12 @@ def test_numbers_stay_numbers(functions):
     for made in _computed(functions):
         state = np.frombuffer(made[: 8 * lay.STATE])
         assert np.isfinite(state).all()
+
+
+def test_no_turn_of_a_loop_over_lanes_needs_another_one(functions, monkeypatch):
+    """That is what the C compiler is told: in the opposite order the bits are the same."""
+    loops = [module for module in MODULES if hasattr(module, "lanes")]
+    assert len(loops) > 4
+    for module in loops:
+        monkeypatch.setattr(module, "lanes", lambda *bounds: reversed(range(*bounds)))
+    assert same_bits(functions)

@@ -9,11 +9,8 @@ from dualfoot_ros.core.kernel.schmidt.considered_states import (
     consider_common,
     consider_foot,
 )
-from dualfoot_ros.core.kernel.schmidt.considered_update import (
-    considering_gain,
-    knowing_all,
-    knowing_foot,
-)
+from dualfoot_ros.core.kernel.schmidt.considered_update import considering_gain
+from dualfoot_ros.core.kernel.schmidt.stance_gain import knowing_all, knowing_foot
 
 from .states import random_workspace
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from dualfoot_ros.core import row_blocks, row_distances, row_lengths, unwrapped_angles
+from dualfoot_ros.core import picked, row_blocks, row_distances, row_lengths, unwrapped_angles
 from dualfoot_ros.core.samples import by_block
 
 
@@ -43,3 +43,15 @@ def test_angles_are_unwrapped_as_numpy_does(often):
 def test_few_angles_are_as_they_are(count):
     angles = np.array([1.0, 9.0])[:count]
     assert np.array_equal(unwrapped_angles(angles), np.unwrap(angles))
+
+
+def test_rows_are_picked_as_by_an_index_and_the_place_of_the_rows_may_rest_meanwhile(monkeypatch):
+    rests: list[int] = []
+    monkeypatch.setattr(by_block, "FEW", 10)
+    monkeypatch.setattr(by_block, "rest", lambda: rests.append(1))
+    rows = np.random.default_rng(3).normal(size=(300, 3))
+    at = np.random.default_rng(4).integers(0, 300, 25)
+    assert np.array_equal(picked(rows, at), rows[at])
+    assert np.array_equal(picked(rows[:, 2], at), rows[at, 2])
+    assert np.array_equal(picked(rows, slice(5, 9)), rows[5:9])
+    assert len(rests) == 6

@@ -2,6 +2,7 @@
 
 import errno
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -47,7 +48,7 @@ def test_nothing_of_a_file_is_seen_in_its_folder_while_it_is_in_use(folder):
 def test_what_was_written_is_there_when_its_pages_have_been_let_go_of(folder):
     array = new_array((large_arrays.LARGE // 8,))
     array[:] = np.arange(len(array))
-    file_arrays.RESIDENT.let_go()
+    file_arrays.FILES.let_go()
     np.testing.assert_array_equal(array, np.arange(len(array)))
 
 
@@ -64,7 +65,7 @@ def test_a_thread_lets_go_of_what_is_resident(folder):
 
 def resident() -> int:
     """Return the bytes of files in memory."""
-    return int(file_arrays.STATM.read_text().split()[2]) * 4096
+    return int(Path(file_arrays.STATM).read_text().split()[2]) * 4096
 
 
 def test_a_disk_without_room_is_named_with_what_was_needed(folder, monkeypatch):

@@ -44,6 +44,7 @@ def constrain_distance(w, x, c0, std, solves, given, a, b, c):
     separation_covariance(w, x)
     for i in range(3):
         x[M_R + i] = x[X_BEFORE + i]
+        x[X_AFTER + i] = x[X_BEFORE + i]
     distance = length(x, X_BEFORE)
     variance = quadratic(x) / (distance * distance) if distance > 0.0 else 0.0
     error = distance - c0

@@ -51,8 +51,8 @@ def end_stance(w, n, x, rule, learnt, foot, ahead_x, ahead_y, gate, since):
 
     (ahead_x, ahead_y) is where the person faces.  Returns END_DONE, END_NO_STEP where there is
     nothing to do, or END_ASK: where something has been applied after the moment, ``since`` being
-    the newest epoch of that, where the distance is no longer than it has to be, or where the
-    constraint does not fit, its NIS a row being beyond ``gate``.  Then Python goes back itself.
+    the newest epoch of that, or where the constraint does not fit, its NIS a row being beyond
+    ``gate``.  Then Python goes back itself.
     """
     o = N_FOOT + foot * N_STRIDE
     first = n[o + N_START]
@@ -62,13 +62,19 @@ def end_stance(w, n, x, rule, learnt, foot, ahead_x, ahead_y, gate, since):
     if (last - first + 1) * w[C_PERIOD] > rule[R_LONGEST_S] or not has_swung(n, 1 - foot, moment):
         return END_NO_STEP
     target = learnt[L_STATE]
-    if since > moment or (rule[R_KIND] == R_DISTANCE and distance_at(w, n, x, moment) <= target):
-        return END_ASK
-    restore(w, n, moment + 1)
-    if not constrain_as(w, x, rule, target, ahead_x, ahead_y, gate):
-        return END_ASK
-    rerun(w, n, moment + 1, n[N_EPOCH])
     x[X_TARGET] = target
+    if rule[R_KIND] == R_DISTANCE and distance_at(w, n, x, moment) <= target:
+        a = x[X_BEFORE]
+        b = x[X_BEFORE + 1]
+        c = x[X_BEFORE + 2]
+        constrain_distance(w, x, target, rule[R_STD], 1, 1, a, b, c)  # there is nothing to do
+    else:
+        if since > moment:
+            return END_ASK
+        restore(w, n, moment + 1)
+        if not constrain_as(w, x, rule, target, ahead_x, ahead_y, gate):
+            return END_ASK
+        rerun(w, n, moment + 1, n[N_EPOCH])
     if rule[R_LEARNS] != 0.0:
         learn_spacing(
             learnt, x[X_BEFORE], x[X_BEFORE + 1], x[X_AFTER], x[X_AFTER + 1], ahead_x, ahead_y

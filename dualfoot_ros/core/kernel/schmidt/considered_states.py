@@ -28,6 +28,7 @@ from ..layout import (
     S_PC,
     SIDE,
     X_CC,
+    lanes,
 )
 from ..tiles import copy_row, put_row
 
@@ -40,7 +41,7 @@ def gather_left(w, state, column):
     """Write P times an error state of the left foot to ``column`` (JOINT)."""
     state &= PLACE
     column &= PLACE
-    for j in range(ROW):
+    for j in lanes(ROW):
         w[column + j] = w[PLL + ROW * state + j]
         w[column + SIDE + j] = w[PLR + ROW * state + j]
 
@@ -52,7 +53,7 @@ def gather_right(w, state, column):
     for j in range(15):
         w[column + j] = w[PLR + ROW * j + state]
     w[column + 15] = 0.0
-    for j in range(ROW):
+    for j in lanes(ROW):
         w[column + SIDE + j] = w[PRR + ROW * state + j]
 
 
@@ -116,7 +117,7 @@ def consider_common(w):
         column = S_PC + JOINT * (BIASES + k)
         gather_left(w, state, column)
         gather_right(w, state, S_K)
-        for j in range(JOINT):
+        for j in lanes(JOINT):
             w[column + j] = (1.0 - a) * w[column + j] + a * w[S_K + j]
         g0 = between(w, S_G + state, a)
         g1 = between(w, S_G + JOINT + state, a)

@@ -16,14 +16,9 @@ states have no branch and much to do, so that a compiler takes several states at
 from ..layout import (
     JOINT,
     PLACE,
-    PLL,
-    PLR,
-    PRR,
-    ROW,
     ROW_CC,
     ROW_GC,
     ROWS_MOST,
-    S_A,
     S_CC,
     S_DX,
     S_G,
@@ -35,8 +30,8 @@ from ..layout import (
     S_Y,
     SIDE,
     X_CC,
+    lanes,
 )
-from .considered_states import KNOWN
 from .known_states import TOGETHER, inverse_root, solve_known
 
 
@@ -44,7 +39,7 @@ def clear_rest(w, rows):
     """Set what belongs to no row of a measurement with fewer than three to zero."""
     for k in range(rows, ROWS_MOST):
         w[S_Y + k] = 0.0
-        for j in range(JOINT):
+        for j in lanes(JOINT):
             w[S_G + JOINT * k + j] = 0.0
         for m in range(ROWS_MOST):
             w[S_S + ROWS_MOST * k + m] = 0.0
@@ -89,7 +84,7 @@ def begin_gain(w, side):
     """Write G of the foot at ``side`` to the place of its gain."""
     side &= PLACE
     for k in range(ROWS_MOST):
-        for j in range(SIDE):
+        for j in lanes(SIDE):
             w[S_K + JOINT * k + side + j] = w[S_G + JOINT * k + side + j]
 
 
@@ -107,7 +102,7 @@ def take_known(w, c, column, stride, side):
     column &= PLACE
     stride &= PLACE
     gain = (S_K + side) & PLACE
-    for j in range(SIDE):
+    for j in lanes(SIDE):
         p = column + j
         k = gain + j
         a = w[p]
@@ -128,7 +123,7 @@ def divide_by_factor(w, side):
     d1 = w[S_L + ROWS_MOST + 1]
     d2 = w[S_L + 2 * ROWS_MOST + 2]
     gain = (S_K + side) & PLACE
-    for j in range(SIDE):
+    for j in lanes(SIDE):
         k = gain + j
         z0 = w[k] * d0
         z1 = (w[k + JOINT] - l10 * z0) * d1
@@ -150,33 +145,4 @@ def considering_gain(w, size):
     nis = factor_rest(w, size)
     gain_of(w, size, 0)
     gain_of(w, size, SIDE)
-    return nis
-
-
-def knowing_all(w):
-    """Do what `considering_gain` does for what `consider_all` prepared; return the NIS.
-
-    Heading and gyro bias of a foot are rows of P that follow each other; those of the right foot
-    in the cross block are at S_A (`turn_over`).
-    """
-    solve_known(w, 2 * TOGETHER)
-    nis = factor_rest(w, 2 * TOGETHER)
-    begin_gain(w, 0)
-    take_known(w, 0, PLL + ROW * KNOWN, ROW, 0)
-    take_known(w, TOGETHER, S_A + ROW * KNOWN, ROW, 0)
-    divide_by_factor(w, 0)
-    begin_gain(w, SIDE)
-    take_known(w, 0, PLR + ROW * KNOWN, ROW, SIDE)
-    take_known(w, TOGETHER, PRR + ROW * KNOWN, ROW, SIDE)
-    divide_by_factor(w, SIDE)
-    return nis
-
-
-def knowing_foot(w, block, side):
-    """Do the same for what `consider_foot` prepared."""
-    solve_known(w, TOGETHER)
-    nis = factor_rest(w, TOGETHER)
-    begin_gain(w, side)
-    take_known(w, 0, block + ROW * KNOWN, ROW, side)
-    divide_by_factor(w, side)
     return nis

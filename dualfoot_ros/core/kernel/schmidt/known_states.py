@@ -6,7 +6,7 @@ once.  Elements take the same operations in the same order as in a plain elimina
 
 import math
 
-from ..layout import ROW_CC, S_CC, X_CC
+from ..layout import ROW_CC, S_CC, X_CC, lanes
 
 TOGETHER = 4  # considered states that are taken at once
 LEAST_PIVOT = 1e-18  # a variance below it is none: the state is known already
@@ -66,7 +66,7 @@ def divide_columns(w, p, ahead):
     q += ROW_CC
     s2, c3 = w[q + 2], w[q + 3]
     s3 = w[q + ROW_CC + 3]
-    for j in range(TOGETHER):
+    for j in lanes(TOGETHER):
         q = p + ahead + j
         x0 = w[q] * s0
         x1 = (w[q + ROW_CC] - a1 * x0) * s1
@@ -84,7 +84,7 @@ def subtract_group(w, u, p, q):
         c1 = w[u + ROW_CC + i]
         c2 = w[u + 2 * ROW_CC + i]
         c3 = w[u + 3 * ROW_CC + i]
-        for j in range(TOGETHER):
+        for j in lanes(TOGETHER):
             k = q + ROW_CC * i + j
             m = p + j
             w[k] = (

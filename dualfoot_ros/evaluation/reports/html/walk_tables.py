@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ....core import FEET, FloatArray, stance_bounds, swing_passings
+from ....core import FEET, FloatArray, picked, stance_bounds, swing_passings
 from ...evaluate import Evaluation, constraint_epochs
 from ...frames.association import Footfalls, seconds
 from ...person_track import CHI2_95_PLANE, PersonTrack
@@ -34,7 +34,7 @@ def walk_tables(run: Evaluation, person: PersonTrack) -> dict[str, Any]:
 def _walk(run: Evaluation, person: PersonTrack) -> dict[str, FloatArray]:
     rows = thin(len(person.stamp_ns))
     feet = run.trajectory.left, run.trajectory.right
-    left, right = (foot.position[rows] for foot in feet)
+    left, right = (picked(foot.position, rows) for foot in feet)
     both = feet[0].present[rows] & feet[1].present[rows]
     some = person.at(rows)
     longer, shorter, angle = some.axes
@@ -68,15 +68,18 @@ def _truth(
         points = series.position
         falls = Footfalls.of(track)
         floors.append(
-            np.interp(rows, falls.middle, points[falls.middle, 2]) if len(falls) else 0.0
+            np.interp(rows, falls.middle, picked(points, falls.middle)[:, 2])
+            if len(falls)
+            else 0.0
         )
-        true |= {f"true_{foot}_{axis}": points[rows, i] for i, axis in enumerate("xy")}
+        some = picked(points, rows)
+        true |= {f"true_{foot}_{axis}": some[:, i] for i, axis in enumerate("xy")}
         true[f"error_{foot}"] = np.hypot(
             *(columns[f"{foot}_{axis}"] - true[f"true_{foot}_{axis}"] for axis in "xy")
         )
     middle = [(true[f"true_left_{axis}"] + true[f"true_right_{axis}"]) / 2 for axis in "xy"]
     true["error"] = np.hypot(columns["x"] - middle[0], columns["y"] - middle[1])
-    left, right = (series.position[rows] for series in run.truth)
+    left, right = (picked(series.position, rows) for series in run.truth)
     true["true_apart"] = np.linalg.norm(left - right, axis=1)
     true["true_floor"] = np.mean(np.broadcast_arrays(*floors), axis=0) + np.zeros(len(rows))
     return true
@@ -105,9 +108,9 @@ def _moments(run: Evaluation, time: FloatArray) -> Any:
     at = at[thin(len(at), 2000)]
     columns = {
         "time": time[at],
-        "apart": np.linalg.norm(left.position[at] - right.position[at], axis=1),
+        "apart": np.linalg.norm(picked(left.position, at) - picked(right.position, at), axis=1),
     }
     if run.truth is not None:
-        true = run.truth[0].position[at] - run.truth[1].position[at]
-        columns["true_apart"] = np.linalg.norm(true, axis=1)
+        left_true, right_true = (picked(series.position, at) for series in run.truth)
+        columns["true_apart"] = np.linalg.norm(left_true - right_true, axis=1)
     return table(columns)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ....core import FEET, FloatArray, row_distances
+from ....core import FEET, FloatArray
 from ...evaluate import Evaluation
 from ...frames.association import Footfalls
 from ...metrics.accuracy import heading_error
@@ -28,15 +28,14 @@ def draw_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
         turns = []
         for foot, truth in zip(FEET, run.truth or (), strict=False):
             track = run.feet_tracks[foot]
-            walked = Footfalls.of(track).walked(truth.position, truth.stamp_ns)
-            error = row_distances(track.position, truth.position)
-            some, label = thinned(len(error)), f"{name} {foot}"
-            line = walked[some].copy(), error[some].copy()  # else a figure holds the whole
+            some, label = thinned(len(track)), f"{name} {foot}"
+            walked = Footfalls.of(track).walked(truth.position, truth.stamp_ns)[some].copy()
+            error = np.linalg.norm(track.position[some] - truth.position[some], axis=1)
             # On a long walk both lie on each other: the first is wide, so that both show.
             width = WIDE if foot == FEET[0] else NARROW
-            axes[0, 0].plot(*line, style, color=FOOT[foot], lw=width, label=label)
+            axes[0, 0].plot(walked, error, style, color=FOOT[foot], lw=width, label=label)
             turn = heading_error(track.quaternion, truth.quaternion)
-            turns.append(_in_stance(turn, track.stance))
+            turns.append(_in_stance(turn, track.stance, some))
         _heading(axes[1, 0], walked, turns, style, name)
     axes[0, 0].set_ylim(bottom=0.0)
     axes[0, 0].set_ylabel("position error (m)")
@@ -49,21 +48,22 @@ def draw_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
     return save(figure, path)
 
 
-def _in_stance(values: FloatArray, stance: np.ndarray) -> FloatArray:
-    """Return ``values`` (N,) as they were in stance, joined by straight lines.
+def _in_stance(values: FloatArray, stance: np.ndarray, some: slice) -> FloatArray:
+    """Return ``some`` of the values (N,) as they were in stance, joined by straight lines.
 
     In the swing a foot turns fast, and the least difference of time makes spikes.
     """
     index = np.arange(len(values))
-    return np.interp(index, index[stance], values[stance]) if stance.any() else values
+    if not stance.any():
+        return np.array(values[some])  # else the figure holds the whole
+    joined: FloatArray = np.interp(index[some], index[stance], values[stance])
+    return joined
 
 
 def _heading(
     axis: Axes, walked: FloatArray, turns: list[FloatArray], style: str, name: str
 ) -> None:
-    some = thinned(len(walked))
-    common, difference = (np.degrees(part[some]) for part in split(turns[0], turns[1]))
-    walked = walked[some].copy()
+    common, difference = (np.degrees(part) for part in split(turns[0], turns[1]))
     axis.plot(walked, common, style, color=GREEN, lw=1.1, label=f"{name} common")
     axis.plot(
         walked, difference, style, color=PINK, lw=1.1, label=f"{name} difference (left - right)"

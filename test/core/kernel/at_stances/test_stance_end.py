@@ -80,9 +80,11 @@ def test_both_forms_do_the_same_or_leave_it(kind, change, gate, since, done):
         assert not changed[0]
 
 
-def test_feet_that_are_near_enough_are_left_alone():
+def test_feet_that_are_near_enough_are_left_alone_and_teach_the_spacing():
     w, n, x, rule, learnt = ended(lay.R_DISTANCE)
     learnt[lay.L_STATE] = 1e6
-    found, after = both_forms("end_stance", w, n, x, rule, learnt, given=(1, 0.6, 0.8, 1e9, -1))
-    assert found == lay.END_ASK
+    found, after = both_forms("end_stance", w, n, x, rule, learnt, given=(1, 0.6, 0.8, 1e9, 7))
+    assert found == lay.END_DONE
     assert np.array_equal(after[0], w)
+    assert after[2][lay.X_EXCEEDS] == 0.0
+    assert after[4][lay.L_BEGUN] == 1.0

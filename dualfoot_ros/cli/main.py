@@ -6,7 +6,6 @@ Nothing of the library is imported before an interrupt can be turned into one, t
 from __future__ import annotations
 
 import argparse
-import difflib
 import importlib
 import os
 import sys
@@ -150,6 +149,8 @@ def _overview() -> str:
 
 
 def _unknown(name: str) -> int:
+    import difflib
+
     near = difflib.get_close_matches(name, VERBS, n=1)
     hint = f"; did you mean '{near[0]}'?" if near else ""
     verbs = ", ".join(VERBS)

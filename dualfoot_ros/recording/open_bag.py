@@ -7,22 +7,24 @@ from __future__ import annotations
 
 import re
 import struct
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..core import RecordingError
 from .storage.bag_source import BagSource, Block, Chained, TopicInfo
 from .storage.bag_writer import NO_LIBRARY, has_rosbag2_py, has_rosbags
 from .storage.mcap_bag import McapBag
 from .storage.mcap_scan import McapScan
-from .storage.rosbag2_py_source import Rosbag2PySource
-from .storage.rosbags_source import Ros1Source, RosbagsSource
-from .storage.sqlite_scan import SqliteScan
+
+if TYPE_CHECKING:
+    from .storage.sqlite_scan import SqliteScan
 
 METADATA = "metadata.yaml"
 ROS1 = ".bag"
-SCANS: dict[str, Callable[[Path], BagSource]] = {".mcap": McapScan, ".db3": SqliteScan}
+MCAP = ".mcap"
+SUFFIXES = (MCAP, ".db3")
 HEAD = 200  # characters that hold the first key
 UNUSUAL = (ValueError, KeyError, TypeError, AttributeError, OSError, struct.error)
 
@@ -92,17 +94,28 @@ def _open(path: Path) -> BagSource:
 
 
 def _open_whole(path: Path) -> BagSource:
+    """Open a bag with its index, with what is there."""
     if path.suffix == ROS1 and path.is_file():
         if not has_rosbags():
             raise RecordingError(
                 f"'{path}' is a bag of ROS 1, which needs the package rosbags: pip install rosbags"
             )
+        from .storage.rosbags_source import Ros1Source
+
         return Ros1Source(path)
     if has_rosbags():
-        return _mcap_bag(path) or RosbagsSource(path)
+        return _mcap_bag(path) or _with_rosbags(path)
     if has_rosbag2_py():
+        from .storage.rosbag2_py_source import Rosbag2PySource
+
         return Rosbag2PySource(path)
     raise RecordingError(NO_LIBRARY)
+
+
+def _with_rosbags(path: Path) -> BagSource:
+    from .storage.rosbags_source import RosbagsSource
+
+    return RosbagsSource(path)
 
 
 def _mcap_bag(path: Path) -> McapBag | None:
@@ -121,7 +134,7 @@ def _open_file(file: Path) -> BagSource:
         raise
     except Exception as error:
         try:
-            scan = SCANS[file.suffix](file)
+            scan = _scan(file)
         except Exception:  # not even its first records can be read
             raise _damaged(file, error) from error
         if not any(topic.messages for topic in scan.topics.values()):
@@ -129,11 +142,20 @@ def _open_file(file: Path) -> BagSource:
         return scan
 
 
+def _scan(file: Path) -> McapScan | SqliteScan:
+    """Read a file of a bag from its start."""
+    if file.suffix == MCAP:
+        return McapScan(file)
+    from .storage.sqlite_scan import SqliteScan  # here: it brings sqlite3
+
+    return SqliteScan(file)
+
+
 def bag_files(path: Path) -> list[Path]:
     """Return the .mcap or .db3 files of a bag, in the order of their numbers."""
     if path.is_file():
-        return [path] if path.suffix in SCANS else []
-    for suffix in SCANS:
+        return [path] if path.suffix in SUFFIXES else []
+    for suffix in SUFFIXES:
         if found := [file for file in path.glob(f"*{suffix}") if file.is_file()]:
             return sorted(found, key=_natural_order)
     return []
@@ -153,7 +175,7 @@ def _check_is_bag(path: Path) -> None:
             "file; give the folder of one, or a bag file"
         )
     _check_readable(path)
-    if path.is_file() and path.suffix not in (*SCANS, ROS1):
+    if path.is_file() and path.suffix not in (*SUFFIXES, ROS1):
         raise RecordingError(
             f"'{path}' is no recording of ROS; allowed is the folder of a bag, a .mcap, a .db3 or "
             "a .bag file; a sensor's export is turned into a bag by 'dualfoot import'"

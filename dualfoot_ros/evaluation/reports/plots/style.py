@@ -73,13 +73,15 @@ def save(figure: Figure, path: Path) -> Path:
     """Write a figure as PNG and return the path.
 
     The layout is solved twice where an axis has a fixed aspect: solved once, for axes that shrink
-    only after it, it lays titles and legends over each other.  ``Figure.savefig`` would draw every
-    figure one more time before it, to the same pixels.
+    only after it, it lays titles and legends over each other.  ``Figure.savefig``, and to solve it
+    by ``draw_without_rendering``, would draw every figure one more time, to the same pixels.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     engine = figure.get_layout_engine()
     if engine is not None and any(axis.get_aspect() != "auto" for axis in figure.axes):
-        figure.draw_without_rendering()
+        engine.execute(figure)
+        for axis in figure.axes:
+            axis.apply_aspect()
     FigureCanvasAgg(figure).print_png(path)  # type: ignore[no-untyped-call]
     return path

@@ -46,7 +46,7 @@ ENTRY_KINDS = {
     "constrain_spacing": Entry((_W, _W, _X, _X, _X, _X, _X, _I, _I), _X),
     "constrain_distance": Entry((_W, _W, _X, _X, _I, _I, _X, _X, _X), _I),
     "distance_after": Entry((_W, _W), _X),
-    "end_stance": Entry((_W, _N, _W, _W, _W, _I, _X, _X, _X, _I), _I),
     "learn_spacing": Entry((_W, _X, _X, _X, _X, _X, _X)),
+    "end_stance": Entry((_W, _N, _W, _W, _W, _I, _X, _X, _X, _I), _I),
     "landing": Entry((_W, _N, _W, _I, _X), _X),
 }

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import STANDARD_GRAVITY, FloatArray, ImuSeries, IntArray
+from ..core import STANDARD_GRAVITY, FloatArray, ImuSeries, IntArray, row_lengths
 
 WINDOW_S = 0.1  # over which the specific force is to be steady
 APART_S = 0.5  # two quiet instants are not closer than the half of it
@@ -127,7 +127,7 @@ def _least_within(values: FloatArray, size: int) -> FloatArray:
 
 def _cycles(series: ImuSeries, starts: IntArray, size: int) -> list[tuple[int, int]]:
     """Return the pairs of successive windows with one step between their middles."""
-    off = np.abs(np.linalg.norm(series.specific_force, axis=1) - STANDARD_GRAVITY)
+    off = np.abs(row_lengths(series.specific_force) - STANDARD_GRAVITY)
     stamps, rate_hz = (series.stamp_ns[starts + size // 2]).tolist(), series.rate_hz
     return [
         (a, b)

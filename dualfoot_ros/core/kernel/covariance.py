@@ -145,7 +145,9 @@ def propagate_block(w, block, dt):
 
 def correlated(w):
     """Return whether the feet are correlated: whether the cross block holds anything."""
-    k = 0
-    while k < BLOCK and w[PLR + k] == 0.0:
-        k += 1
-    return k < BLOCK
+    if w[PLR] != 0.0:
+        return True
+    found = 0
+    for k in lanes(BLOCK):
+        found = found | (w[PLR + k] != 0.0)
+    return found != 0

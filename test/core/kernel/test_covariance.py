@@ -7,7 +7,7 @@ import pytest
 
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.kernel import layout as lay
-from dualfoot_ros.core.kernel.covariance import propagate_foot
+from dualfoot_ros.core.kernel.covariance import correlated, propagate_foot
 from dualfoot_ros.core.kernel.strapdown import mechanize
 
 from ..dense import noise_powers, propagated, transition
@@ -64,6 +64,19 @@ def test_uncorrelated_feet_stay_uncorrelated_to_the_bit():
         mechanize(space.w, foot, 0.01, SAMPLE + 6 * foot)
         propagate_foot(space.w, foot, 0.01)
     assert not space.w[lay.PLR : lay.PLR + lay.BLOCK].any()
+
+
+def test_feet_are_correlated_by_whatever_the_cross_block_holds():
+    w = random_workspace(7).w
+    block = w[lay.PLR : lay.PLR + lay.BLOCK]
+    assert correlated(w)
+    block[:] = 0.0
+    assert not correlated(w)
+    for k in range(lay.BLOCK):
+        block[k] = np.nan if k % 2 else 1e-300
+        assert correlated(w)
+        block[k] = -0.0
+    assert not correlated(w)
 
 
 @pytest.mark.parametrize("foot", (0, 1))

@@ -48,7 +48,7 @@ def draw_errors(runs: Mapping[str, Evaluation], path: Path, title: str) -> Path:
     return save(figure, path)
 
 
-def _in_stance(values: FloatArray, stance: np.ndarray, some: slice) -> FloatArray:
+def _in_stance(values: FloatArray, stance: np.ndarray, some: slice = slice(None)) -> FloatArray:
     """Return ``some`` of the values (N,) as they were in stance, joined by straight lines.
 
     In the swing a foot turns fast, and the least difference of time makes spikes.

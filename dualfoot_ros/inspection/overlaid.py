@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import BoolArray, FloatArray, ImuSeries
+from ..core import BoolArray, FloatArray, ImuSeries, placed
 
 LEAST = 12  # samples in a row
 NEAR = 0.15  # of the interval, by which that to the sample after the next may differ from it
@@ -30,7 +30,7 @@ def find_overlaid(series: ImuSeries) -> Overlaid | None:
     """Return the longest stretch of overlaid samples of a foot, None without one."""
     if len(series) < LEAST + 2:
         return None
-    stamps = (series.stamp_ns - series.stamp_ns[0]) * 1e-9
+    stamps = placed((series.stamp_ns - series.stamp_ns[0]) * 1e-9)
     two = stamps[2:] - stamps[:-2]
     for usual_s in (float(np.median(np.diff(stamps))), float(np.median(two))):  # overlaid: most
         first, last = _longest(np.abs(two - usual_s) < NEAR * usual_s)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -80,9 +81,7 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
     config = config or AlignerConfig()
     good, counters, restart_at = clean(series, config)
     bad = np.flatnonzero(~finite_samples(series))
-    steps = np.diff(good.stamp_ns)
-    regular = steps[steps <= config.max_gap_ns]
-    off = _off_beat(regular) if len(regular) else np.zeros(1)
+    rhythm = _rhythm(good.stamp_ns, config)
     some = len(good) > 0
     return Quality(
         samples=len(series),
@@ -95,10 +94,10 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
         start_s=int(good.stamp_ns[0]) * 1e-9 if some else float("nan"),
         end_s=int(good.stamp_ns[-1]) * 1e-9 if some else float("nan"),
         rate_hz=good.rate_hz,
-        jitter_s=float(np.quantile(off, 0.95)) * 1e-9,
-        missing=_missing(regular),
+        jitter_s=rhythm.jitter_s,
+        missing=rhythm.missing,
         gaps=counters["gap"],
-        longest_gap_s=float(steps.max()) * 1e-9 if len(steps) else 0.0,
+        longest_gap_s=rhythm.longest_gap_s,
         stand=first_stand(good),
         median_force=_quantile(good.specific_force, 0.5),
         high_rate=_quantile(good.angular_rate, 0.98),
@@ -109,6 +108,25 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
         overlaid=find_overlaid(good),
         stuck=find_stuck(good),
         gyro=gyro_agreement(good),
+    )
+
+
+class _Rhythm(NamedTuple):
+    """What the intervals of the samples tell, as in :class:`Quality`."""
+
+    jitter_s: float
+    missing: int
+    longest_gap_s: float
+
+
+def _rhythm(stamp_ns: IntArray, config: AlignerConfig) -> _Rhythm:
+    steps = np.diff(stamp_ns)
+    regular = steps[steps <= config.max_gap_ns]
+    off = _off_beat(regular) if len(regular) else np.zeros(1)
+    return _Rhythm(
+        float(np.quantile(off, 0.95)) * 1e-9,
+        _missing(regular),
+        float(steps.max()) * 1e-9 if len(steps) else 0.0,
     )
 
 

@@ -11,7 +11,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import STANDARD_GRAVITY, FloatArray, ImuSeries, IntArray, row_lengths
+from ..core import (
+    STANDARD_GRAVITY,
+    FloatArray,
+    ImuSeries,
+    IntArray,
+    new_array,
+    placed,
+    row_lengths,
+)
 
 WINDOW_S = 0.1  # over which the specific force is to be steady
 APART_S = 0.5  # two quiet instants are not closer than the half of it
@@ -76,7 +84,7 @@ def _average(series: ImuSeries) -> ImuSeries:
         return series
     count = len(series) // size * size
     force, turn = (
-        _sum([v[k:count:size] for k in range(size)]) / size
+        placed(_sum([v[k:count:size] for k in range(size)]) / size)
         for v in (series.specific_force, series.angular_rate)
     )
     return ImuSeries(series.stamp_ns[size - 1 : count : size], force, turn)
@@ -85,14 +93,14 @@ def _average(series: ImuSeries) -> ImuSeries:
 def _windows(force: FloatArray, size: int) -> tuple[FloatArray, FloatArray]:
     """Return mean (N - size + 1, 3) and unrest (N - size + 1,) m/s^2 of every window."""
     count = len(force) - size + 1
-    means, scatter = np.empty((count, 3)), np.empty(count)
+    means, scatter = new_array((count, 3)), np.empty(count)
     for start in range(0, count, TOGETHER):
         part = slice(start, min(start + TOGETHER, count))
         rows = [force[part.start + k : part.stop + k] for k in range(size)]
         means[part] = _sum(rows) / size
         off = [row - means[part] for row in rows]
         scatter[part] = np.sqrt((_sum([each * each for each in off]) / size).sum(axis=1))
-    norms = np.linalg.norm(means, axis=1)
+    norms = row_lengths(means)
     few = max(1, round(QUIETEST * len(scatter)))
     gravity = np.median(norms[np.argpartition(scatter, few - 1)[:few]])
     return means, scatter + np.abs(norms - gravity)

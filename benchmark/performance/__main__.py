@@ -26,6 +26,7 @@ from .growth import growth_figures
 from .outputs import output_figures
 
 PARTS = ("epochs", "outputs", "hour", "start", "growth")
+MOST_HOURS = 9  # that can be simulated: 100 laps
 EXAMPLES = """examples:
   python -m benchmark.performance --yardstick ../yardstick
   python -m benchmark.performance --yardstick ../yardstick --only epochs start
@@ -52,9 +53,11 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
         "--hours",
         nargs="+",
         type=int,
+        choices=range(1, MOST_HOURS + 1),
         default=[1],
         metavar="N",
-        help="lengths of the walks of the part hour: several show how memory grows (default: 1)",
+        help=f"lengths of the walks of the part hour, up to {MOST_HOURS}: several show how memory "
+        "grows (default: 1)",
     )
     parser.add_argument("--repetitions", type=int, default=5, metavar="N", help="default: 5")
     parser.add_argument("--epochs", type=int, default=60_000, metavar="N", help="of the C walk")

@@ -15,7 +15,6 @@ from ..layout import (
     N_FLAGS,
     N_RING,
     PLL,
-    PLR,
     POS,
     PRR,
     ROT,
@@ -25,7 +24,7 @@ from ..layout import (
     Z_NIS,
     ZUPT_INFO,
 )
-from .output_row import height_drift, quaternion
+from .output_row import height_drift, quaternion, relative_cell
 
 
 def keep(
@@ -97,10 +96,3 @@ def keep_relative(w, out, k):
     for i in range(2):
         out[k, 3 + i] = relative_cell(w, 1, 1 + i)
     out[k, 5] = relative_cell(w, 2, 2)
-
-
-def relative_cell(w, i, j):
-    """Return a cell of the covariance of left minus right position, m^2."""
-    return (
-        w[PLL + ROW * i + j] + w[PRR + ROW * i + j] - (w[PLR + ROW * i + j] + w[PLR + ROW * j + i])
-    )

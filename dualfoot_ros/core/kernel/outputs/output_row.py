@@ -149,11 +149,14 @@ def emit(w, n, out, k):
         emit_floor(w, out, k)
     for i in range(3):
         for j in range(3):
-            out[k, O_RELATIVE + 3 * i + j] = (
-                w[PLL + ROW * i + j]
-                + w[PRR + ROW * i + j]
-                - (w[PLR + ROW * i + j] + w[PLR + ROW * j + i])
-            )
+            out[k, O_RELATIVE + 3 * i + j] = relative_cell(w, i, j)
+
+
+def relative_cell(w, i, j):
+    """Return a cell of the covariance of left minus right position, m^2."""
+    return (
+        w[PLL + ROW * i + j] + w[PRR + ROW * i + j] - (w[PLR + ROW * i + j] + w[PLR + ROW * j + i])
+    )
 
 
 def height_drift(w):

@@ -243,7 +243,7 @@ def test_a_function_on_a_face_is_not_taken_for_the_module_of_its_name():
     path = PACKAGE / "cli" / "calibrate" / "spacing.py"
     assert "dualfoot_ros.evaluation.track" in set(imported(path))
     assert "dualfoot_ros.evaluation.track" not in set(reached(path))
-    behind = PACKAGE / "evaluation" / "person_track.py"
+    behind = PACKAGE / "evaluation" / "tracked_person.py"
     assert "dualfoot_ros.evaluation.frames.association" in set(reached(behind))
 
 

@@ -20,7 +20,7 @@ LAZY = sorted(
 
 
 def test_there_are_lazy_faces():
-    assert LAZY == ["calibration", "drivers", "recording", "timing"]
+    assert LAZY == ["calibration", "drivers", "evaluation", "recording", "timing"]
 
 
 @pytest.mark.parametrize("room", LAZY)
@@ -58,3 +58,11 @@ def test_a_node_that_applies_a_calibration_imports_nothing_that_makes_one():
     assert "dualfoot_ros.calibration.file" in loaded
     idle = {"calibration.walk", "drivers.source", "recording.read", "evaluation"}
     assert not {f"dualfoot_ros.{name}" for name in idle} & loaded
+
+
+def test_what_tracks_a_walk_imports_nothing_that_evaluates_one():
+    code = "import sys; from dualfoot_ros.evaluation import track_walk; print(*sys.modules)"
+    loaded = set(printed(code).split())
+    assert "dualfoot_ros.evaluation.track" in loaded
+    idle = {"whole_evaluation", "gait", "metrics", "pipeline"}
+    assert not {f"dualfoot_ros.evaluation.{name}" for name in idle} & loaded

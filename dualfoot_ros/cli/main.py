@@ -6,6 +6,7 @@ Nothing of the library is imported before an interrupt can be turned into one, t
 from __future__ import annotations
 
 import argparse
+import gc
 import importlib
 import os
 import sys
@@ -71,7 +72,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if argv is not None:
             return _run(name, rest)
         with Interruptible(sentence):  # the process is ours to end
-            return _run(name, rest)
+            return _run_alone(name, rest)
     except KeyboardInterrupt:
         print(sentence, file=sys.stderr)
         return EXIT_INTERRUPTED
@@ -93,6 +94,22 @@ def parser_of(name: str) -> argparse.ArgumentParser:
     )
     verb.add_arguments(parser)
     return parser
+
+
+def _run_alone(name: str, arguments: list[str]) -> int:
+    """Run a verb in a process that ends after it.
+
+    Modules stay to the end, so the garbage collector does not search them; nor does it search
+    anything when the process ends.  Both took a twentieth of the time of a short command.
+    """
+    gc.disable()
+    load(name)
+    gc.freeze()
+    gc.enable()
+    try:
+        return _run(name, arguments)
+    finally:
+        gc.freeze()
 
 
 def _run(name: str, arguments: list[str]) -> int:

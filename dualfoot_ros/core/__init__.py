@@ -80,6 +80,7 @@ from .samples.mounting import (
     dot,
 )
 from .samples.pair_gate import LOOP_NS
+from .samples.quantiles import quantile
 from .samples.series import (
     BoolArray,
     FieldSeries,
@@ -185,6 +186,7 @@ __all__ = [
     "parameter",
     "picked",
     "placed",
+    "quantile",
     "quaternion_matrices",
     "quaternion_matrix",
     "quaternion_yaw",

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..core import EvaluationError
-from .evaluate import Evaluation, evaluate
-from .frames.gauge import Options
-from .frames.yaw_transform import Align, Pair
-from .notes import config_notes
-from .person_track import PersonTrack, person_track
+from ..lazy_face import lazy_face
 from .plain import plain
-from .published import published_trajectory
-from .run import RunOptions, run
 from .track import as_live, pair_samples, track, track_samples, track_walk, truth_of
 
 if TYPE_CHECKING:
+    from .frames.gauge import Options
+    from .frames.yaw_transform import Align, Pair
+    from .notes import config_notes
+    from .pipeline import RunOptions, run
+    from .published import published_trajectory
     from .reports.demo_table import Report, demo_report
+    from .tracked_person import PersonTrack, person_track
+    from .whole_evaluation import Evaluation, evaluate
 
 __all__ = [
     "Align",
@@ -42,11 +43,4 @@ __all__ = [
     "truth_of",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    """Return a name of the reports, whose modules take a third of the time to import the rest."""
-    if name not in ("Report", "demo_report"):
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from .reports import demo_table
-
-    return getattr(demo_table, name)
+__getattr__, __dir__ = lazy_face(__name__)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core import FloatArray, ImuSeries, IntArray, row_lengths
+from ..core import FloatArray, ImuSeries, IntArray, quantile, row_lengths
 from ..timing import AlignerConfig, clean, finite_samples
 from .gyro_agreement import GyroAgreement, gyro_agreement
 from .overlaid import Overlaid, find_overlaid
@@ -124,7 +124,7 @@ def _rhythm(stamp_ns: IntArray, config: AlignerConfig) -> _Rhythm:
     regular = steps[steps <= config.max_gap_ns]
     off = _off_beat(regular) if len(regular) else np.zeros(1)
     return _Rhythm(
-        float(np.quantile(off, 0.95)) * 1e-9,
+        quantile(off, 0.95) * 1e-9,
         _missing(regular),
         float(steps.max()) * 1e-9 if len(steps) else 0.0,
     )
@@ -167,4 +167,4 @@ def _missing(steps: IntArray) -> int:
 def _quantile(vectors: FloatArray, share: float) -> float:
     if not len(vectors):
         return float("nan")
-    return float(np.quantile(row_lengths(vectors), share))
+    return quantile(row_lengths(vectors), share)

@@ -143,3 +143,14 @@ def test_an_interrupt_while_the_library_is_imported_ends_with_130_too(monkeypatc
     assert capsys.readouterr().err == "dualfoot info: interrupted\n"
     script = "import sys, dualfoot_ros.cli.main; sys.exit('numpy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
+
+
+def test_garbage_is_collected_while_a_verb_runs_but_not_in_what_was_imported_for_it():
+    script = (
+        "import gc, sys; from dualfoot_ros.cli import info, main\n"
+        "sys.argv = ['dualfoot', 'info', 'walk']\n"
+        "info.run = lambda args: print(gc.isenabled(), gc.get_freeze_count() > 10_000) or 0\n"
+        "main.main()"
+    )
+    told = subprocess.run([sys.executable, "-c", script], check=True, stdout=subprocess.PIPE)
+    assert told.stdout == b"True True\n"

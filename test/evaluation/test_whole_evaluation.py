@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from dualfoot_ros.core.errors import EvaluationError
 from dualfoot_ros.core.samples.series import PoseSeries
-from dualfoot_ros.evaluation.evaluate import evaluate
 from dualfoot_ros.evaluation.frames.gauge import Options
 from dualfoot_ros.evaluation.frames.yaw_transform import Align, Pair, YawTransform
 from dualfoot_ros.evaluation.reports.text_files import write_tracks
+from dualfoot_ros.evaluation.whole_evaluation import evaluate
 from dualfoot_ros.recording.reference import Reference
 
 from .walks import perfect, rectangle

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import dataclass
 
 import numpy as np
@@ -54,15 +55,18 @@ def window_ends(
 ) -> tuple[list[int], list[int]]:
     """Return the samples with which windows end, a slide apart, and when the next ones may.
 
-    ``full`` (N,) are those with which one can, ``due_ns`` is when the first one may.
+    ``stamp_ns`` (N,) rise, ``full`` (N,) are those with which one can, and ``due_ns`` is when the
+    first one may.
     """
     ends, dues = [], []
-    for k in np.flatnonzero(full).tolist():
-        stamp = int(stamp_ns[k])
-        if due_ns is None or stamp >= due_ns:
-            due_ns = max(due_ns or stamp, stamp - step_ns) + step_ns
-            ends.append(k)
-            dues.append(due_ns)
+    can = np.flatnonzero(full)
+    rows, stamps = can.tolist(), stamp_ns[can].tolist()
+    at = 0 if due_ns is None else bisect_left(stamps, due_ns)
+    while at < len(rows):
+        due_ns = max(due_ns or stamps[at], stamps[at] - step_ns) + step_ns
+        ends.append(rows[at])
+        dues.append(due_ns)
+        at = bisect_left(stamps, due_ns, at + 1)
     return ends, dues
 
 
@@ -70,7 +74,7 @@ def moments(values: FloatArray, first: IntArray, last: IntArray) -> tuple[FloatA
     """Return mean and scatter (W, 6) of windows of samples (N, 6), summed as `Window.of` does."""
     mean, std = np.empty((len(first), 6)), np.empty((len(first), 6))
     counts = last - first + 1
-    for count in np.unique(counts):
+    for count in set(counts.tolist()):
         alike = np.flatnonzero(counts == count)
         for at in np.array_split(alike, -(-len(alike) // TOGETHER)):
             block = values[first[at] + np.arange(count)[:, None]]

@@ -15,12 +15,12 @@ from ...core import EvaluationError, FloatArray, IntArray, swing_passings
 from ...core.compiler import compiled
 from ...inspection import Finding, check_usable, mend_clocks
 from ...recording import Correction, Recording, find_topics, read_bag
-from ..evaluate import Evaluation
 from ..frames.gauge import Options, Truth
 from ..metrics.accuracy import Statistics, statistics
 from ..metrics.repeated_walk import STRIDE, StridePlace, repeated, stride_place
+from ..pipeline import RunOptions, run_checked
 from ..plain import plain
-from ..run import RunOptions, run_checked
+from ..whole_evaluation import Evaluation
 from .cases import Case
 
 TRACK_POINTS = 1500

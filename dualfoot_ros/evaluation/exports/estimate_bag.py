@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core import FloatArray, FootTrajectory, Trajectory, stance_middles
 from ...recording import OdometrySeries, write_track_bag
-from ..person_track import PersonTrack
+from ..tracked_person import PersonTrack
 from .person_files import heading_quaternions
 
 BAG_NAME = "estimate_bag"

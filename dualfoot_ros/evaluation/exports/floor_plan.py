@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core import EvaluationError
-from ..person_track import PersonTrack
+from ..tracked_person import PersonTrack
 from .geo_origin import start_direction
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"

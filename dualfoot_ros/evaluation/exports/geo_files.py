@@ -12,7 +12,7 @@ import numpy as np
 
 from ...core import FloatArray
 from ..frames.association import seconds
-from ..person_track import PersonTrack
+from ..tracked_person import PersonTrack
 from .geo_origin import GeoOrigin
 
 POINT_S = 0.5

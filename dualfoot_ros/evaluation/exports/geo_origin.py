@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core import EvaluationError, FloatArray
-from ..person_track import PersonTrack
+from ..tracked_person import PersonTrack
 
 SEMI_MAJOR_M = 6_378_137.0  # WGS 84
 ECCENTRICITY_2 = 6.694379990141e-3

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core import FloatArray, PoseSeries, new_array
 from ..frames.association import seconds
-from ..person_track import PersonTrack
+from ..tracked_person import PersonTrack
 from .text_table import Form, write_table
 from .tum import write_tum
 

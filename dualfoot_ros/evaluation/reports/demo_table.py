@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from ...core import EvaluationError, Trajectory
 from ...recording import Recording
-from ..evaluate import Evaluation, evaluate
 from ..frames.gauge import Options
 from ..track import truth_of
+from ..whole_evaluation import Evaluation, evaluate
 from .html import write_walk_page
 from .output import METRICS, report_folder, write_json
 from .plots import draw_all

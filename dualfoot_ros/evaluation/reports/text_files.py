@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..evaluate import Evaluation
 from ..exports import write_tum
 from ..gait import strides_csv
+from ..whole_evaluation import Evaluation
 
 
 def write_tracks(directory: Path, evaluation: Evaluation, prefix: str = "") -> list[Path]:

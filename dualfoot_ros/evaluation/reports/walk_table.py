@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ...core import FEET
-from ..evaluate import Evaluation
 from ..frames.association import Footfalls
 from ..gait import PARAMETERS
 from ..metrics.accuracy import Statistics
+from ..whole_evaluation import Evaluation
 
 if TYPE_CHECKING:
     from rich.table import Table

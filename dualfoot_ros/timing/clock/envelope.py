@@ -7,7 +7,7 @@ from collections import deque
 
 import numpy as np
 
-from ...core import FloatArray
+from ...core import FloatArray, quantile
 from .event_waits import EventWaits
 from .line import REACH_S, Line, LinesBelow, fit_between
 
@@ -107,17 +107,6 @@ class LowerEnvelope:
         above = points[:, 1] - line.height_s - line.skew * (points[:, 0] - line.center_s)
         above = above[above < REACH_S]
         count = len(above)
-        seen = -quantile_of_few(above, SHARE) / math.log(1.0 - SHARE) if count else 0.0
+        seen = -quantile(above, SHARE) / math.log(1.0 - SHARE) if count else 0.0
         scale = (2.0 * self._guess_s + count * seen) / (count + 2.0)
         return min(max(scale, SCALE_LIMITS_S[0]), SCALE_LIMITS_S[1])
-
-
-def quantile_of_few(values: FloatArray, share: float) -> float:
-    """Return what np.quantile does, which takes ten times as long for so few values."""
-    place = (len(values) - 1) * share
-    number = math.floor(place)
-    above = min(number + 1, len(values) - 1)
-    ordered = np.partition(values, (number, above))
-    low, high = float(ordered[number]), float(ordered[above])
-    part = place - number
-    return low + (high - low) * part if 2 * part < 1 else high - (high - low) * (1.0 - part)

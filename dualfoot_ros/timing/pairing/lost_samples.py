@@ -119,8 +119,7 @@ def _around(
     after = after[inside]
     around = [after + k for k in (-2, -1, 0, 1)]
     first, before, behind, last = (stamps[k] for k in around)
-    _, hole, lost_in = np.unique(after, return_inverse=True, return_counts=True)
-    count = lost_in[hole]
+    count = np.bincount(after)[after]
     good = is_curved(first, before, behind, count, config)
     good &= can_guide(last - behind, behind - before, count, config)
     return lost[inside][good], [k[good] for k in around]

@@ -10,13 +10,13 @@ import pytest
 
 from dualfoot_ros.evaluation import evaluate
 from dualfoot_ros.evaluation.exports import GeoOrigin
-from dualfoot_ros.evaluation.person_track import person_track
 from dualfoot_ros.evaluation.reports.html.comparison_page import comparison_page
 from dualfoot_ros.evaluation.reports.html.page import script_data
 from dualfoot_ros.evaluation.reports.html.page_tables import column, thin
 from dualfoot_ros.evaluation.reports.html.walk_page import walk_page
 from dualfoot_ros.evaluation.reports.html.words import Tone, _symmetry, clock, in_words
 from dualfoot_ros.evaluation.reports.plots import draw_all
+from dualfoot_ros.evaluation.tracked_person import person_track
 from dualfoot_ros.inspection import Finding, FindingKind, Severity
 from dualfoot_ros.recording.reference import Reference
 

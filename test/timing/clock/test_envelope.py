@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from dualfoot_ros.timing.clock.envelope import LowerEnvelope, quantile_of_few
+from dualfoot_ros.timing.clock.envelope import LowerEnvelope
 
 from .test_line import cloud
 
@@ -17,15 +17,6 @@ def test_slow_arrivals_change_nothing():
         other.add(*quick)
         other.add(*late)
     assert envelope.line == other.line
-
-
-@pytest.mark.parametrize("count", range(1, 10))
-def test_the_quantile_of_few_values_is_that_of_numpy_to_the_bit(count):
-    values = np.random.default_rng(count).exponential(size=(50, count))
-    for share in (0.0, 0.25, 0.7, 1.0):
-        assert [quantile_of_few(v, share) for v in values] == [
-            np.quantile(v, share) for v in values
-        ]
 
 
 def test_memory_is_that_of_the_horizon():

@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 from ....core import FEET
-from ...evaluate import Evaluation
 from ...exports import start_direction
-from ...person_track import PersonTrack
+from ...tracked_person import PersonTrack
+from ...whole_evaluation import Evaluation
 from ..plots import FOOT, GREEN, MARKER, TRUTH
 
 PERSON = "#4B3F8F"

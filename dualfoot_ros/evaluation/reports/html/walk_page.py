@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from ....core import EventKind
-from ...evaluate import Evaluation
 from ...exports import FloorPlan, GeoOrigin
 from ...gait import PARAMETERS
-from ...person_track import PersonTrack
+from ...tracked_person import PersonTrack
+from ...whole_evaluation import Evaluation
 from ..walk_table import number, sections
 from .page import figure, folded, html_table, page, section, tiles, words
 from .walk_charts import walk_charts

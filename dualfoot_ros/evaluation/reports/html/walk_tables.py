@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from ....core import FEET, FloatArray, picked, stance_bounds, swing_passings
-from ...evaluate import Evaluation, constraint_epochs
 from ...frames.association import Footfalls, seconds
-from ...person_track import CHI2_95_PLANE, PersonTrack
+from ...tracked_person import CHI2_95_PLANE, PersonTrack
+from ...whole_evaluation import Evaluation, constraint_epochs
 from .page_tables import table, thin
 
 CENTI = 0.01

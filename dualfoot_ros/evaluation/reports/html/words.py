@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
-from ...evaluate import Evaluation
-from ...person_track import PersonTrack
+from ...tracked_person import PersonTrack
+from ...whole_evaluation import Evaluation
 from ..walk_table import number
 
 CLIMB_M = 0.5

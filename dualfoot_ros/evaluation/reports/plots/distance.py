@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ....core import FloatArray, row_distances, swing_passings
-from ...evaluate import Evaluation, constraint_epochs
 from ...frames.association import seconds
+from ...whole_evaluation import Evaluation, constraint_epochs
 from .style import GREEN, PINK, TRUTH, new_figure, save
 
 if TYPE_CHECKING:

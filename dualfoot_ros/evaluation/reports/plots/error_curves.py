@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ....core import FEET, FloatArray
-from ...evaluate import Evaluation
 from ...frames.association import Footfalls
 from ...metrics.accuracy import heading_error
 from ...metrics.heading_split import split
+from ...whole_evaluation import Evaluation
 from .style import FOOT, GREEN, LINES, PINK, legend_above, new_figure, save, thinned
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from ....core import FEET
-from ...evaluate import Evaluation
 from ...exports import FloorPlan
+from ...whole_evaluation import Evaluation
 from .distance import draw_distance
 from .error_curves import draw_errors, draw_marker_errors
 from .stances import draw_stances

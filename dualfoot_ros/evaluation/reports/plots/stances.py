@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from ....core import stance_bounds
-from ...evaluate import Evaluation
 from ...frames.association import seconds
+from ...whole_evaluation import Evaluation
 from .style import FOOT, new_figure, save
 
 ROW_S = 20.0

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ....core import FEET, FloatArray
-from ...evaluate import Evaluation
 from ...exports import FloorPlan
 from ...frames.association import Footfalls
+from ...whole_evaluation import Evaluation
 from .style import FOOT, MARKER, TRUTH, new_figure, save, thinned, wrapped
 
 if TYPE_CHECKING:

@@ -30,8 +30,8 @@ from .metrics.foot_passings import FeetReport, feet_report
 from .metrics.markers import MarkerErrors, marker_errors
 from .metrics.position_trust import TrustReport, trust_report
 from .notes import field_notes, marker_notes, pressure_notes, refusal_notes
-from .person_track import PersonTrack, person_track
 from .plain import plain
+from .tracked_person import PersonTrack, person_track
 from .truth_report import TruthReport, against_truth
 
 

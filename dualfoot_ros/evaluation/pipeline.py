@@ -28,11 +28,11 @@ from ..inspection import (
     walk_findings,
 )
 from ..recording import Correction, Recording, Reference
-from .evaluate import Evaluation, evaluate
 from .frames.gauge import Options, Truth
 from .lean_track import lean
 from .notes import config_notes
 from .track import PairedSamples, pair_samples, track_walk, truth_of
+from .whole_evaluation import Evaluation, evaluate
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import AlignmentConfig, FloatArray, ImuSeries, stillness
+from ..core import AlignmentConfig, BoolArray, FloatArray, ImuSeries, stillness
+
+AT_FIRST = 1 << 10  # windows looked at; then twice as many, where no standstill ends in them
 
 
 @dataclass(frozen=True)
@@ -52,15 +54,16 @@ def first_stand(series: ImuSeries, config: AlignmentConfig | None = None) -> Sta
     windows = len(series) // size
     force = series.specific_force[: windows * size].reshape(windows, size, 3)
     rate = series.angular_rate[: windows * size].reshape(windows, size, 3)
-    rate_std = rate.std(axis=1).max(axis=1)
-    still = (rate_std < config.max_rate_std) & (
-        force.std(axis=1).max(axis=1) < config.max_force_std
-    )
-    run = _first_run(still, int(np.ceil(config.duration * series.rate_hz / size)))
+    needed = int(np.ceil(config.duration * series.rate_hz / size))
+    run, still = None, np.zeros(0, dtype=bool)
+    while len(still) < windows and (run is None or run[1] == len(still)):  # it may go on
+        part = slice(len(still), max(AT_FIRST, 2 * len(still)))
+        still = np.append(still, _are_still(force[part], rate[part], config))
+        run = _first_run(still, needed)
     if run is None:
         return None
     used = slice(*run)
-    weights = stillness(rate_std[used], config.still_rate_std)
+    weights = stillness(_scatter(rate[used]), config.still_rate_std)
     weights /= weights.sum()
     rates = rate[used].mean(axis=1)
     bias = weights @ rates
@@ -73,6 +76,20 @@ def first_stand(series: ImuSeries, config: AlignmentConfig | None = None) -> Sta
         angular_rate=bias,
         angular_rate_scatter=float(np.sqrt(weights @ (rates - bias) ** 2).max()),
     )
+
+
+def _are_still(force: FloatArray, rate: FloatArray, config: AlignmentConfig) -> BoolArray:
+    """Return which windows (N, K, 3) are still."""
+    still: BoolArray = (_scatter(rate) < config.max_rate_std) & (
+        _scatter(force) < config.max_force_std
+    )
+    return still
+
+
+def _scatter(windows: FloatArray) -> FloatArray:
+    """Return the standard deviation (N,) within windows (N, K, 3), that of the worst axis."""
+    worst: FloatArray = windows.std(axis=1).max(axis=1)
+    return worst
 
 
 def _first_run(still: np.ndarray, needed: int) -> tuple[int, int] | None:

@@ -64,25 +64,25 @@ def swing_passings(
 
     The direction of walking is that of the swinging foot in the middle half of its swing.
     """
-    swings = sorted(
-        [*_swings(left, left_stance), *_swings(right, right_stance)], key=lambda swing: swing[0]
-    )
-    index = np.array([middle for middle, _ in swings], dtype=np.int64)
-    way = np.reshape([direction for _, direction in swings], (-1, 2))
+    swings = [_swings(left, left_stance), _swings(right, right_stance)]
+    index, way = (np.concatenate(both) for both in zip(*swings, strict=True))
+    order = np.argsort(index, kind="stable")
+    index, way = index[order], way[order]
     apart = picked(left, index) - picked(right, index)
     lateral = way[:, 0] * apart[:, 1] - way[:, 1] * apart[:, 0]
     return SwingPassings(index, lateral, np.linalg.norm(apart, axis=1))
 
 
-def _swings(position: FloatArray, stance: np.ndarray) -> Iterator[tuple[int, FloatArray]]:
-    """Yield the middle epoch and the unit direction of every swing between two stances."""
+def _swings(position: FloatArray, stance: np.ndarray) -> tuple[IntArray, FloatArray]:
+    """Return the middle epochs (K,) and unit directions (K, 2) of all swings between stances."""
     bounds = stance_bounds(stance)
-    for begin, end in zip(bounds[:-1, 1], bounds[1:, 0], strict=True):
-        quarter = (end - begin) // 4
-        way = (position[end - 1 - quarter] - position[begin + quarter])[:2]
-        stride = np.linalg.norm((position[end] - position[begin - 1])[:2])
-        if stride >= LEAST_SWING_M and np.any(way):
-            yield int((begin + end - 1) // 2), way / np.linalg.norm(way)
+    begin, end = bounds[:-1, 1], bounds[1:, 0]
+    quarter = (end - begin) // 4
+    way = (picked(position, end - 1 - quarter) - picked(position, begin + quarter))[:, :2]
+    stride = (picked(position, end) - picked(position, begin - 1))[:, :2]
+    far = (np.linalg.norm(stride, axis=1) >= LEAST_SWING_M) & way.any(axis=1)
+    middle: IntArray = (begin[far] + end[far] - 1) // 2
+    return middle, way[far] / np.linalg.norm(way[far], axis=1)[:, np.newaxis]
 
 
 class StanceEpochs(NamedTuple):

@@ -102,8 +102,9 @@ class Footfalls:
 
     def mean(self, position: FloatArray) -> FloatArray:
         """Return (M, 3) mean positions over each stance of (N, 3) positions."""
-        means = [position[first:last].mean(axis=0) for first, last in self.bounds]
-        return np.reshape(means, (-1, 3))
+        sums = [np.add.reduce(position[a:b]) for a, b in self.bounds.tolist()]
+        means: FloatArray = np.reshape(sums, (-1, 3)) / np.diff(self.bounds)
+        return means
 
     def walked(self, position: FloatArray, stamp_ns: IntArray) -> FloatArray:
         """Return the (N,) horizontal way from stance to stance, in m, at every epoch.

@@ -20,7 +20,7 @@ from .bag_source import Block
 from .mcap_format import CHANNEL, CHUNK_HEAD, CHUNK_INDEX, HEAD, MAGIC, MESSAGE
 from .mcap_index import indexed_starts
 from .mcap_scan import decompressor, split, text, u16
-from .message_rows import MessageRows, windows
+from .message_rows import MessageRows, rows_at
 
 FOOTER = struct.Struct("<BQQQI8s")  # opcode, length, starts of summary and of its index, crc
 RECORD = struct.Struct("<BQH")  # opcode and length of a record, and the channel of a message
@@ -81,7 +81,7 @@ class McapChunks:
 
     def _block(self, topic: str, records: bytes, starts: NDArray[np.int64]) -> Block:
         """Return the messages whose records begin at ``starts``."""
-        heads = windows(records, HEAD_SIZE)[starts]
+        heads = rows_at(records, starts, HEAD_SIZE)
         logged = heads[:, LOG_AT : LOG_AT + 8].copy().view("<i8")[:, 0]
         lengths = heads[:, 1:9].copy().view("<i8")[:, 0] - (HEAD_SIZE - HEAD.size)
         first, bodies = int(lengths[0]), starts + HEAD_SIZE

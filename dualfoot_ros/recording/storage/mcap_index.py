@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from .mcap_format import HEAD, MESSAGE, MESSAGE_HEAD, MESSAGE_INDEX
 from .mcap_scan import split, u16
-from .message_rows import windows
+from .message_rows import rows_at
 
 Starts = dict[int, NDArray[np.int64]]
 ENTRIES_AT = 6  # in a record of the index: behind the channel and the size of the entries
@@ -44,7 +44,7 @@ def _is_complete(found: Starts, records: bytes) -> bool:
     starts, channels = starts[order], channels[order]
     if starts[0] < 0 or starts[-1] + LEAST > len(records):
         return False
-    heads = windows(records, HEAD.size + 2)[starts]
+    heads = rows_at(records, starts, HEAD.size + 2)
     ends = starts + HEAD.size + heads[:, 1 : HEAD.size].copy().view("<i8")[:, 0]
     own = heads[:, HEAD.size :].copy().view("<u2")[:, 0]
     follow = np.array_equal(ends, np.append(starts[1:], len(records)))

@@ -6,7 +6,13 @@ from evaluation.walks import SPACING, along, rectangle, straight
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dualfoot_ros.core import DualFootTracker, TrackerConfig, stance_passings, swing_passings
+from dualfoot_ros.core import (
+    DualFootTracker,
+    TrackerConfig,
+    stance_bounds,
+    stance_passings,
+    swing_passings,
+)
 from dualfoot_ros.evaluation.frames.yaw_transform import YawTransform
 from dualfoot_ros.simulation import WalkConfig, simulate
 
@@ -47,6 +53,29 @@ def test_the_sides_of_the_feet_do_not_depend_on_the_frame(yaw, shift):
     passings = swing_passings(move(left.position), move(right.position), *stance)
     same = swing_passings(left.position, right.position, *stance)
     np.testing.assert_allclose(passings.lateral_m, same.lateral_m, atol=1e-9)
+
+
+def test_the_swings_of_a_walk_together_are_to_the_bit_those_one_by_one():
+    """In a turn, and with other swings than those of the walk, some of them short."""
+    left, right, _ = along(rectangle())
+    rng = np.random.default_rng(4)
+    made = [np.repeat(rng.random(len(left.position) // 7 + 1) > 0.5, 7) for _ in range(2)]
+    stance = [own[: len(left.position)] for own in made]
+    expected = []
+    for track, own in zip((left.position, right.position), stance, strict=True):
+        bounds = stance_bounds(own)
+        for begin, end in zip(bounds[:-1, 1], bounds[1:, 0], strict=True):
+            quarter = (end - begin) // 4
+            way = (track[end - 1 - quarter] - track[begin + quarter])[:2]
+            if np.linalg.norm((track[end] - track[begin - 1])[:2]) >= 0.3 and way.any():
+                middle = (begin + end - 1) // 2
+                x, y = (left.position[middle] - right.position[middle])[:2]
+                forward = way / np.linalg.norm(way)
+                expected.append((middle, forward[0] * y - forward[1] * x))
+    expected.sort(key=lambda passing: passing[0])
+    passings = swing_passings(left.position, right.position, *stance)
+    found = list(zip(passings.index.tolist(), passings.lateral_m.tolist(), strict=True))
+    assert found == expected and len(found) > 10
 
 
 def test_shuffling_on_the_spot_has_no_direction_and_no_swing_passings():

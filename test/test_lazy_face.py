@@ -66,3 +66,9 @@ def test_what_tracks_a_walk_imports_nothing_that_evaluates_one():
     assert "dualfoot_ros.evaluation.track" in loaded
     idle = {"whole_evaluation", "gait", "metrics", "pipeline"}
     assert not {f"dualfoot_ros.evaluation.{name}" for name in idle} & loaded
+
+
+def test_masked_arrays_are_not_imported_to_describe_a_bag():
+    bag = PACKAGE.parent / "bags" / "demo"
+    code = f"import sys; from dualfoot_ros.cli.main import main; main(['info', {str(bag)!r}])"
+    assert printed(f"{code}; print('numpy.ma' in sys.modules)").endswith("\nFalse\n")

@@ -80,7 +80,7 @@ from .samples.mounting import (
     dot,
 )
 from .samples.pair_gate import LOOP_NS
-from .samples.quantiles import quantile
+from .samples.quantiles import median, quantile
 from .samples.series import (
     BoolArray,
     FieldSeries,
@@ -179,6 +179,7 @@ __all__ = [
     "fields_of",
     "make_large_arrays_in",
     "mean_angle",
+    "median",
     "method_parameters",
     "nested",
     "new_array",

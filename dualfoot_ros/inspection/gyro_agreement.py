@@ -24,7 +24,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from ..core import DEGREE, STANDARD_GRAVITY, FloatArray, ImuSeries
+from ..core import DEGREE, STANDARD_GRAVITY, FloatArray, ImuSeries, median
 from .quiet_spans import Spans, quiet_spans
 from .turns_in_a_row import one_after_another, products, quaternions_of, turned
 
@@ -222,5 +222,4 @@ def _residuals(spans: Spans, matrices: FloatArray, biases: FloatArray) -> FloatA
 
 def _median(residuals: FloatArray) -> FloatArray:
     """Return the median over the cycles of the residuals' size, (P,)."""
-    sizes: FloatArray = np.median(np.linalg.norm(residuals, axis=-1), axis=-1)
-    return sizes
+    return np.array([median(sizes) for sizes in np.linalg.norm(residuals, axis=-1)])

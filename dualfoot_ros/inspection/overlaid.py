@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import BoolArray, FloatArray, ImuSeries, placed
+from ..core import BoolArray, FloatArray, ImuSeries, median, placed
 
 LEAST = 12  # samples in a row
 NEAR = 0.15  # of the interval, by which that to the sample after the next may differ from it
@@ -32,7 +32,7 @@ def find_overlaid(series: ImuSeries) -> Overlaid | None:
         return None
     stamps = placed((series.stamp_ns - series.stamp_ns[0]) * 1e-9)
     two = stamps[2:] - stamps[:-2]
-    for usual_s in (float(np.median(np.diff(stamps))), float(np.median(two))):  # overlaid: most
+    for usual_s in (median(np.diff(stamps)), median(two)):  # overlaid: most
         first, last = _longest(np.abs(two - usual_s) < NEAR * usual_s)
         if last - first >= LEAST and _is_rough(series.angular_rate[first : last + 2]):
             return Overlaid(float(stamps[first]), float(stamps[last + 1] - stamps[first]))

@@ -16,6 +16,7 @@ from ..core import (
     FloatArray,
     ImuSeries,
     IntArray,
+    median,
     new_array,
     placed,
     row_lengths,
@@ -102,7 +103,7 @@ def _windows(force: FloatArray, size: int) -> tuple[FloatArray, FloatArray]:
         scatter[part] = np.sqrt((_sum([each * each for each in off]) / size).sum(axis=1))
     norms = row_lengths(means)
     few = max(1, round(QUIETEST * len(scatter)))
-    gravity = np.median(norms[np.argpartition(scatter, few - 1)[:few]])
+    gravity = median(norms[np.argpartition(scatter, few - 1)[:few]])
     return means, scatter + np.abs(norms - gravity)
 
 

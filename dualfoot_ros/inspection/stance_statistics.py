@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from ..core import FootTrajectory, TrackerConfig, Trajectory, stance_bounds
+from ..core import FootTrajectory, TrackerConfig, Trajectory, median, stance_bounds
 
 
 @dataclass(frozen=True)
@@ -58,4 +56,4 @@ def _summarise(foot: FootTrajectory) -> StanceStatistics:
     lengths = (foot.stamp_ns[bounds[:, 1] - 1] - foot.stamp_ns[bounds[:, 0]]) * 1e-9
     walk = slice(bounds[0, 1], bounds[-1, 0])
     share = float(foot.stance[walk].mean()) if walk.stop > walk.start else 0.0
-    return StanceStatistics(len(bounds), float(np.median(lengths)), share, foot.distance_m)
+    return StanceStatistics(len(bounds), median(lengths), share, foot.distance_m)

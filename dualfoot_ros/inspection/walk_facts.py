@@ -15,6 +15,7 @@ from ..core import (
     FootTrajectory,
     IntArray,
     Trajectory,
+    median,
     picked,
     stance_bounds,
     swing_passings,
@@ -107,7 +108,7 @@ def _steps(foot: FootTrajectory, other: FootTrajectory) -> StepFacts:
     lengths = np.linalg.norm(np.diff(places, axis=0), axis=1)
     strides = lengths >= LEAST_STRIDE_M
     longest = int(np.argmax(lengths)) if strides.any() else -1
-    median_m = float(np.median(lengths[strides])) if strides.any() else float("nan")
+    median_m = median(lengths[strides]) if strides.any() else float("nan")
     swings, holes = _swings_s(foot, bounds), _holes_s(foot, bounds)
     gap = int(np.argmax(swings)) if len(swings) else -1
     return StepFacts(
@@ -123,7 +124,7 @@ def _steps(foot: FootTrajectory, other: FootTrajectory) -> StepFacts:
         without_stance_s=float(swings[gap]) if gap >= 0 else 0.0,
         without_stance_at_s=_seconds(foot, int(bounds[gap, 1]) - 1) if gap >= 0 else float("nan"),
         without_stance_hole_s=float(holes[gap]) if gap >= 0 else 0.0,
-        usual_swing_s=float(np.median(swings)) if len(swings) else float("nan"),
+        usual_swing_s=median(swings) if len(swings) else float("nan"),
         moving_share=_moving_share(foot, bounds, strides),
         way_m=float(lengths.sum()),
     )
@@ -184,7 +185,7 @@ def _moving_share(foot: FootTrajectory, bounds: IntArray, strides: np.ndarray) -
     stance = (stamps[bounds[:-1, 1] - 1] - stamps[bounds[:-1, 0]]) * 1e-9
     cycle = (stamps[bounds[1:, 0]] - stamps[bounds[:-1, 0]]) * 1e-9
     used = strides & (stance < STEP_STANCE_S)
-    return float(np.median(stance[used] / cycle[used])) if used.any() else float("nan")
+    return median(stance[used] / cycle[used]) if used.any() else float("nan")
 
 
 def _course(foot: FootTrajectory) -> tuple[FloatArray, FloatArray]:

@@ -6,6 +6,7 @@ from collections import deque
 
 import numpy as np
 
+from ..samples.quantiles import median
 from ..samples.series import FloatArray
 
 LONGEST_S = 10.0  # stretch that is looked at
@@ -46,6 +47,6 @@ class SamplingRate:
         steps = steps[steps < LARGEST_GAP_S]
         if not len(steps) or steps.sum() <= 0.0:
             return None
-        mean, median = float(steps.mean()), float(np.median(steps))
-        interval = median if abs(median - mean) <= UNEVEN * mean else mean
+        mean, usual = float(steps.mean()), median(steps)
+        interval = usual if abs(usual - mean) <= UNEVEN * mean else mean
         return min(max(1.0 / interval, RATES_HZ[0]), RATES_HZ[1])

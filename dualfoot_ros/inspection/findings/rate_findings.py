@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...core import EventKind, IntArray, Trajectory
+from ...core import EventKind, IntArray, Trajectory, median
 from .finding import Finding, Severity
 from .finding_kinds import FindingKind
 
@@ -25,8 +25,8 @@ def seen_rate_hz(stamp_ns: IntArray) -> float | None:
     steps = steps[(steps > 0.0) & (steps < LONGEST_S)]
     if len(steps) < LEAST:
         return None
-    mean, median = float(steps.mean()), float(np.median(steps))
-    return 1.0 / (median if abs(median - mean) <= UNEVEN * mean else mean)
+    mean, usual = float(steps.mean()), median(steps)
+    return 1.0 / (usual if abs(usual - mean) <= UNEVEN * mean else mean)
 
 
 def find_other_rate(used_hz: float, stamp_ns: IntArray) -> Iterator[Finding]:

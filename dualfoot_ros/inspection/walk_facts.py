@@ -169,12 +169,15 @@ def _holes_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:
 
     The step before it counts too: a foot that was away is put right in its first stance.
     """
+    if not len(bounds):
+        return np.zeros(0)
     there = np.flatnonzero(foot.present)
     steps = np.diff(foot.stamp_ns[there], prepend=foot.stamp_ns[:1]) * 1e-9
     firsts = np.searchsorted(there, np.append(bounds[:1, 0], bounds[:-1, 0])) + 1
     lasts = np.searchsorted(there, np.append(bounds[1:, 1], len(foot)))
-    spans = zip(firsts, lasts, strict=True)
-    return np.array([steps[first:last].max(initial=0.0) for first, last in spans])
+    spans = np.column_stack([np.minimum(firsts, len(steps)), lasts])
+    holes = np.maximum.reduceat(np.append(steps, 0.0), spans.ravel())[::2]
+    return np.where(spans[:, 0] < spans[:, 1], np.maximum(holes, 0.0), 0.0)
 
 
 def _moving_share(foot: FootTrajectory, bounds: IntArray, strides: np.ndarray) -> float:

@@ -192,7 +192,7 @@ def _moving_share(foot: FootTrajectory, bounds: IntArray, strides: np.ndarray) -
 
 
 def _course(foot: FootTrajectory) -> tuple[FloatArray, FloatArray]:
-    """Return stamps (S,) s and unwrapped_angles directions (S,) rad of a foot's strides."""
+    """Return stamps (S,) s and unwrapped directions (S,) rad of a foot's strides."""
     middles = stance_bounds(foot.stance).sum(axis=1) // 2
     ways: FloatArray = np.diff(picked(foot.position, middles)[:, :2], axis=0)
     long = np.linalg.norm(ways, axis=1) >= LEAST_STRIDE_M

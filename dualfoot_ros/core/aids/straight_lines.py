@@ -60,7 +60,7 @@ class StraightLine:
 
 
 class FootDirections:
-    """The directions of the last strides of one foot, rad, unwrapped_angles."""
+    """The directions of the last strides of one foot, rad, unwrapped."""
 
     def __init__(self, count: int) -> None:
         """Keep ``count`` of them."""

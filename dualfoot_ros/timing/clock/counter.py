@@ -69,7 +69,7 @@ class Unwrapper:
         self._range = self.config.range
         self._slack_ns = round(self.config.slack * 1e9)
         self._gap_ns = round(self.config.max_gap * 1e9)
-        self._newest: int | None = None  # counts, unwrapped_angles
+        self._newest: int | None = None  # counts, unwrapped
         self._arrival_ns: int | None = None
         self.counters = dict.fromkeys(COUNTERS, 0)
         self.epoch = 0

@@ -115,24 +115,29 @@ def take_known(w, c, column, stride, side):
 
 
 def divide_by_factor(w, side):
-    """Solve K L L' = G' in the place of G', at ``side``; a pivot that is none gives zero."""
+    """Write the gain in the place of G' of the foot at ``side``."""
+    gain = (S_K + side) & PLACE
+    for j in lanes(SIDE):
+        k = gain + j
+        put_gain(w, k, w[k], w[k + JOINT], w[k + 2 * JOINT])
+
+
+def put_gain(w, k, g0, g1, g2):
+    """Write K of a state to ``k``: K L L' = G'; a pivot that is none gives zero."""
     l10 = w[S_L + ROWS_MOST]
     l20 = w[S_L + 2 * ROWS_MOST]
     l21 = w[S_L + 2 * ROWS_MOST + 1]
     d0 = w[S_L]
     d1 = w[S_L + ROWS_MOST + 1]
     d2 = w[S_L + 2 * ROWS_MOST + 2]
-    gain = (S_K + side) & PLACE
-    for j in lanes(SIDE):
-        k = gain + j
-        z0 = w[k] * d0
-        z1 = (w[k + JOINT] - l10 * z0) * d1
-        z2 = (w[k + 2 * JOINT] - l20 * z0 - l21 * z1) * d2
-        k2 = z2 * d2
-        k1 = (z1 - l21 * k2) * d1
-        w[k] = (z0 - l10 * k1 - l20 * k2) * d0
-        w[k + JOINT] = k1
-        w[k + 2 * JOINT] = k2
+    z0 = g0 * d0
+    z1 = (g1 - l10 * z0) * d1
+    z2 = (g2 - l20 * z0 - l21 * z1) * d2
+    k2 = z2 * d2
+    k1 = (z1 - l21 * k2) * d1
+    w[k] = (z0 - l10 * k1 - l20 * k2) * d0
+    w[k + JOINT] = k1
+    w[k + 2 * JOINT] = k2
 
 
 def considering_gain(w, size):

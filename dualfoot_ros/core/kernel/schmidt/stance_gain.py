@@ -18,13 +18,12 @@ from ..layout import (
     S_CC,
     S_G,
     S_K,
-    S_L,
     SIDE,
     X_CC,
     lanes,
 )
 from .considered_states import KNOWN
-from .considered_update import factor_rest
+from .considered_update import factor_rest, put_gain
 from .known_states import TOGETHER, solve_known
 
 BEHIND = KNOWN + CONSIDERED_FOOT  # states of a foot behind those that are known
@@ -133,21 +132,3 @@ def gain_of_both(w, at, left, right):
             y1 - e * e1 - f * f1 - g * g1 - h * h1,
             y2 - e * e2 - f * f2 - g * g2 - h * h2,
         )
-
-
-def put_gain(w, k, g0, g1, g2):
-    """Write K of a state to ``k``: K L L' = G'; a pivot that is none gives zero."""
-    l10 = w[S_L + ROWS_MOST]
-    l20 = w[S_L + 2 * ROWS_MOST]
-    l21 = w[S_L + 2 * ROWS_MOST + 1]
-    d0 = w[S_L]
-    d1 = w[S_L + ROWS_MOST + 1]
-    d2 = w[S_L + 2 * ROWS_MOST + 2]
-    z0 = g0 * d0
-    z1 = (g1 - l10 * z0) * d1
-    z2 = (g2 - l20 * z0 - l21 * z1) * d2
-    k2 = z2 * d2
-    k1 = (z1 - l21 * k2) * d1
-    w[k] = (z0 - l10 * k1 - l20 * k2) * d0
-    w[k + JOINT] = k1
-    w[k + 2 * JOINT] = k2

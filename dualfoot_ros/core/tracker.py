@@ -25,7 +25,6 @@ from .samples.series import (
     require_equal_stamps,
 )
 from .session import given_pose
-from .snapshot import dump, restore
 
 
 class DualFootTracker:
@@ -59,6 +58,8 @@ class DualFootTracker:
 
     def save(self) -> bytes:
         """Return a snapshot of all that the tracker is, to go on from it by `load`."""
+        from .snapshot import dump  # here: few runs are to go on from a snapshot
+
         return dump(self, self.config.to_mapping())
 
     @classmethod
@@ -72,6 +73,8 @@ class DualFootTracker:
         ConfigError
             For an unknown ``engine``.
         """
+        from .snapshot import restore
+
         tracker = restore(snapshot)
         if not isinstance(tracker, cls):
             raise SnapshotError("the snapshot is not that of a tracker")

@@ -26,7 +26,6 @@ from typing import Any
 import numpy as np
 
 from ..core import FEET, FloatArray, RecordingError
-from .atomic import write_text
 
 FILE_NAME = "reference.yaml"
 FORMAT = "dualfoot_reference"
@@ -65,6 +64,8 @@ class Reference:
     def save(self, path: str | Path) -> None:
         """Write the reference to ``path``, whole or not at all; raise OSError when it cannot."""
         import yaml
+
+        from .atomic import write_text  # here: most programs only read one
 
         document = {
             "format": FORMAT,

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import importlib.util
-import subprocess
 import sys
 import threading
 
 from ..kernel import Engine
 from .cache import READY, usable_cache
 from .compiled import compiled
-from .shared_library import can_compile
 
 COMMAND = (sys.executable, "-m", __package__)
 
@@ -41,12 +39,19 @@ class BackgroundEngine:
     def _prepare(self) -> None:
         try:
             directory = usable_cache()
-            cold = directory is not None and not (directory / READY).exists()
-            if cold and (can_compile() or importlib.util.find_spec("numba") is not None):
-                # A session of its own: Ctrl-C ends the caller only, and the cache is filled.
-                subprocess.run(
-                    COMMAND, check=False, stdout=subprocess.DEVNULL, start_new_session=True
-                )
+            if directory is not None and not (directory / READY).exists():
+                _fill_cache()
             self._ready = compiled()
         except (ImportError, OSError):
             self._ready = None
+
+
+def _fill_cache() -> None:
+    """Have another process fill the cache where something here can compile."""
+    import subprocess  # here: a warm cache needs no process
+
+    from .made_library import can_compile
+
+    if can_compile() or importlib.util.find_spec("numba") is not None:
+        # A session of its own: Ctrl-C ends the caller only, and the cache is filled.
+        subprocess.run(COMMAND, check=False, stdout=subprocess.DEVNULL, start_new_session=True)

@@ -10,16 +10,11 @@ from __future__ import annotations
 import types
 from collections.abc import Iterator, Mapping
 
+from .array_layout import ALIGNED, DATA, EXTENTS, FLAGS, NUMBERS, RANK, STRIDES, TYPE
 from .c_function import FunctionWriter
-from .entries import Entry, Kind
+from .entries import PREFIX, Entry, Kind
 from .kernel_function import KernelFunction
 from .texts_in_c import VECTORS
-
-PREFIX = "dualfoot_"
-HEAD = object.__basicsize__  # bytes, of every object of Python
-DATA, EXTENTS = HEAD, HEAD + 16  # where an array of numpy has its pointers
-RANK, STRIDES, NUMBERS, FLAGS = HEAD + 8, HEAD + 24, HEAD + 40, HEAD + 48
-TYPE, ALIGNED = HEAD - 8, 0x100  # of every object; among the flags
 
 PRELUDE = f"""\
 #include <math.h>

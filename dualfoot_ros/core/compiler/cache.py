@@ -8,7 +8,6 @@ from __future__ import annotations
 import hashlib
 import os
 import sys
-import tempfile
 import types
 from collections.abc import Iterable, Mapping
 from importlib.machinery import PathFinder
@@ -38,10 +37,9 @@ def usable_cache() -> Path | None:
     """Return the cache directory; None where nothing can be written, and nothing is kept then."""
     try:
         directory = cache_directory()
-        with tempfile.TemporaryFile(dir=directory):
-            return directory
     except OSError:
         return None
+    return directory if os.access(directory, os.W_OK | os.X_OK) else None
 
 
 def loaded_code(

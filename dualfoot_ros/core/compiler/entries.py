@@ -5,6 +5,8 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import NamedTuple
 
+PREFIX = "dualfoot_"  # of the names of entries in a library
+
 
 class Kind(StrEnum):
     """What a name of the kernel stands for; the value is how C declares it."""

@@ -7,12 +7,10 @@ import types
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
-from .c_library import library_source
 from .cache import loaded_code, usable_cache
 from .entries import Entry
-from .shared_library import Functions, can_compile, library_path, load_library, make_library
+from .shared_library import Functions, library_path, load_library
 
 
 def compiled_module(
@@ -45,8 +43,13 @@ def kept_library(
     def of(folder: Path) -> Functions | None:
         """Return them from a folder; an empty file tells the next process that none was good."""
         path = library_path(folder, name)
-        if path.exists() or not can_compile():
+        if path.exists():
             return load_library(path, entries)
+        from .c_library import library_source  # here: a warm cache needs none of them
+        from .made_library import can_compile, make_library
+
+        if not can_compile():
+            return None
         made = make_library(path, library_source(functions, entries), entries, is_good)
         if made is None:
             path.touch()
@@ -55,6 +58,8 @@ def kept_library(
     if directory is not None:
         with suppress(OSError):  # a full disk, a folder that has gone
             return of(directory)
+    from tempfile import TemporaryDirectory
+
     with suppress(OSError), TemporaryDirectory() as folder:
         return of(Path(folder))
     return None

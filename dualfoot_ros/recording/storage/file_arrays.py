@@ -11,8 +11,6 @@ import io
 import math
 import mmap
 import os
-import shutil
-import tempfile
 import threading
 import time
 import weakref
@@ -38,12 +36,16 @@ def keep_large_arrays_on_disk() -> None:
 
 def room() -> Path:
     """Return the folder of the files: that of TMPDIR, else one that is on disk."""
+    import tempfile  # here, as below: most walks are short, and it takes as long as reading one
+
     if os.environ.get("TMPDIR") or not os.access(ROOMY, os.W_OK):
         return Path(tempfile.gettempdir())
     return ROOMY
 
 
 def _no_room(folder: Path, size: int, error: OSError) -> str:
+    import shutil
+
     free = shutil.disk_usage(folder).free
     return (
         f"an array of this long walk needs {size / MEGABYTE:.0f} MB in {folder}, where "
@@ -72,6 +74,8 @@ class Files:
         RecordingError
             When there is no room for it on disk; names the folder and what was needed.
         """
+        import tempfile
+
         size = math.prod(shape) * dtype.itemsize
         folder = room()
         try:

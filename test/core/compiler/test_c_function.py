@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dualfoot_ros.core.compiler import shared_library
+from dualfoot_ros.core.compiler import made_library
 from dualfoot_ros.core.compiler.c_library import library_source
 from dualfoot_ros.core.compiler.entries import Entry, Kind
 from dualfoot_ros.core.compiler.kernel_function import TranslationError
-from dualfoot_ros.core.compiler.shared_library import make_library
+from dualfoot_ros.core.compiler.made_library import make_library
 from dualfoot_ros.core.kernel.tiles import transpose_tile
 
 LIMIT = 0.7
@@ -128,7 +128,7 @@ real = st.floats(-50.0, 50.0)
 @pytest.fixture(scope="module")
 def in_c(tmp_path_factory):
     """Return the entries as the C compiler has made them."""
-    if not shared_library.can_compile():
+    if not made_library.can_compile():
         pytest.skip("needs a C compiler (cc), on Linux")
     path = tmp_path_factory.mktemp("library") / "library.so"
     functions = {each.__name__: each for each in FUNCTIONS}
@@ -230,7 +230,7 @@ def test_what_has_no_translation_is_named(function, named):
 
 
 def test_a_tile_is_turned_over_by_the_text_in_c_as_in_python(tmp_path):
-    if not shared_library.can_compile():
+    if not made_library.can_compile():
         pytest.skip("needs a C compiler (cc), on Linux")
     entries = {"transpose_tile": Entry((W, INTEGER, INTEGER, INTEGER, INTEGER))}
     source = library_source({"transpose_tile": transpose_tile}, entries)

@@ -18,9 +18,9 @@ from processes import PATIENCE_S
 from dualfoot_ros.core import DualFootTracker
 from dualfoot_ros.core.compiler import BackgroundEngine, background, cache_directory
 from dualfoot_ros.core.compiler.entries import ENTRY_KINDS
+from dualfoot_ros.core.compiler.made_library import can_compile
 from dualfoot_ros.core.compiler.numba_cache import keep_in
 from dualfoot_ros.core.compiler.same_bits import same_bits
-from dualfoot_ros.core.compiler.shared_library import can_compile
 from dualfoot_ros.core.kernel import (
     ENTRIES,
     MODULES,
@@ -146,7 +146,7 @@ def test_where_no_cache_can_be_written_no_other_process_is_asked_to_fill_it(nowh
     pytest.importorskip("numba")
     engine, asked = interpreted(), []
     monkeypatch.setattr(background, "compiled", lambda: engine)
-    monkeypatch.setattr(background.subprocess, "run", lambda *given, **how: asked.append(given))
+    monkeypatch.setattr(subprocess, "run", lambda *given, **how: asked.append(given))
     assert BackgroundEngine().wait() is engine
     assert asked == []
 

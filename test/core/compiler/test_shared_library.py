@@ -5,14 +5,16 @@ import importlib.util
 import shutil
 import subprocess
 import sys
+import tempfile
 
 import numpy as np
 import pytest
 
-from dualfoot_ros.core.compiler import shared_library
+from dualfoot_ros.core.compiler import array_layout, c_library, made_library, shared_library
 from dualfoot_ros.core.compiler.c_library import library_source
 from dualfoot_ros.core.compiler.entries import ENTRY_KINDS, Entry, Kind
-from dualfoot_ros.core.compiler.shared_library import library_path, load_library, make_library
+from dualfoot_ros.core.compiler.made_library import make_library
+from dualfoot_ros.core.compiler.shared_library import library_path, load_library
 from dualfoot_ros.core.kernel import ENTRIES, interpreted, kernel_functions
 from dualfoot_ros.core.kernel import layout as lay
 
@@ -20,7 +22,7 @@ kept_library = importlib.import_module("dualfoot_ros.core.compiler.kept_library"
 FEW = {name: ENTRY_KINDS[name] for name in ("restore", "set_flags")}
 
 pytestmark = pytest.mark.skipif(
-    not shared_library.can_compile(), reason="needs a C compiler (cc), on Linux"
+    not made_library.can_compile(), reason="needs a C compiler (cc), on Linux"
 )
 
 
@@ -79,7 +81,7 @@ def test_a_library_that_lacks_an_entry_is_none(file):
 
 
 def test_arrays_of_another_kind_are_none_of_the_library(file, monkeypatch):
-    monkeypatch.setattr(shared_library, "DATA", shared_library.DATA + 8)
+    monkeypatch.setattr(array_layout, "DATA", array_layout.DATA + 8)
     assert load_library(file, FEW) is None
 
 
@@ -90,7 +92,7 @@ def test_another_processor_has_another_library(tmp_path, monkeypatch):
 
 
 def test_a_compiler_that_does_not_know_the_best_options_gets_others(source, tmp_path, monkeypatch):
-    monkeypatch.setattr(shared_library, "FAST", ("--no-such-option",))
+    monkeypatch.setattr(made_library, "FAST", ("--no-such-option",))
     path = library_path(tmp_path, "kernel")
     assert make_library(path, source, FEW, bool)
     assert load_library(path, FEW)
@@ -104,9 +106,9 @@ def test_options_that_give_other_bits_are_followed_by_others(source, tmp_path):
 
 
 def test_where_nothing_can_be_made_numba_is_asked_and_the_next_time_at_once(tmp_path, monkeypatch):
-    made, make = [], kept_library.make_library
-    monkeypatch.setattr(kept_library, "make_library", lambda *a: made.append(1) or make(*a))
-    monkeypatch.setattr(shared_library, "COMPILER", shutil.which("false"))
+    made, make = [], make_library
+    monkeypatch.setattr(made_library, "make_library", lambda *a: made.append(1) or make(*a))
+    monkeypatch.setattr(made_library, "COMPILER", shutil.which("false"))
     assert kept(tmp_path) is None
     assert kept(tmp_path) is None
     assert made == [1]
@@ -121,22 +123,22 @@ def test_a_library_with_other_bits_is_not_used_now_or_later(tmp_path):
 @pytest.mark.parametrize("lacks", ["a compiler", "Linux"])
 def test_without_a_compiler_nothing_is_tried(tmp_path, monkeypatch, lacks):
     if lacks == "Linux":
-        monkeypatch.setattr(shared_library, "PROCESSOR", tmp_path / "none")
+        monkeypatch.setattr(made_library, "PROCESSOR", tmp_path / "none")
     else:
-        monkeypatch.setattr(shared_library, "COMPILER", "no-such-compiler")
-    monkeypatch.setattr(kept_library, "library_source", lambda *_: pytest.fail("translated"))
+        monkeypatch.setattr(made_library, "COMPILER", "no-such-compiler")
+    monkeypatch.setattr(c_library, "library_source", lambda *_: pytest.fail("translated"))
     assert kept(tmp_path) is None
     assert list(tmp_path.iterdir()) == []
 
 
 def test_where_nothing_can_be_written_nothing_is_raised(tmp_path, monkeypatch):
-    monkeypatch.setattr(kept_library, "TemporaryDirectory", _folder_in(tmp_path / "gone"))
+    monkeypatch.setattr(tempfile, "TemporaryDirectory", _folder_in(tmp_path / "gone"))
     assert kept(tmp_path / "gone") is None
 
 
 @pytest.mark.parametrize("kept_in", [None, "gone"])
 def test_a_library_that_is_kept_nowhere_leaves_no_file(tmp_path, monkeypatch, kept_in):
-    monkeypatch.setattr(kept_library, "TemporaryDirectory", _folder_in(tmp_path))
+    monkeypatch.setattr(tempfile, "TemporaryDirectory", _folder_in(tmp_path))
     functions = kept(kept_in and tmp_path / kept_in)
     assert list(tmp_path.iterdir()) == []
     flags = []
@@ -149,9 +151,9 @@ def test_a_library_that_is_kept_nowhere_leaves_no_file(tmp_path, monkeypatch, ke
 
 
 def _folder_in(path):
-    from tempfile import TemporaryDirectory
-
-    return lambda: TemporaryDirectory(dir=path)
+    """Return what makes temporary folders in ``path``, where no other is asked for."""
+    make = tempfile.TemporaryDirectory
+    return lambda **given: make(**{"dir": path, **given})
 
 
 def test_other_functions_have_a_library_of_their_own_named_by_what_they_are(tmp_path, monkeypatch):

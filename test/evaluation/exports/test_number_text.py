@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dualfoot_ros.core.compiler.shared_library import can_compile
+from dualfoot_ros.core.compiler.made_library import can_compile
 from dualfoot_ros.evaluation.exports import decimal_text, text_table
 from dualfoot_ros.evaluation.exports.number_text import BLOCK, lines, with_point
 from dualfoot_ros.evaluation.exports.text_table import (

@@ -1,6 +1,7 @@
 """Large arrays in files: what is in them, what is in memory, and what is left on disk."""
 
 import errno
+import tempfile
 import time
 from pathlib import Path
 
@@ -19,7 +20,7 @@ MEGABYTE = 1 << 20
 def folder(tmp_path, monkeypatch):
     """Keep large arrays in a folder of their own, until the end of the test."""
     monkeypatch.setenv("TMPDIR", str(tmp_path))
-    monkeypatch.setattr(file_arrays.tempfile, "tempdir", None)
+    monkeypatch.setattr(tempfile, "tempdir", None)
     keep_large_arrays_on_disk()
     yield tmp_path
     make_large_arrays_in(None)
@@ -82,5 +83,5 @@ def test_without_tmpdir_the_files_are_where_a_system_keeps_large_ones(folder, mo
     monkeypatch.delenv("TMPDIR")
     assert file_arrays.room() in {
         file_arrays.ROOMY,
-        file_arrays.Path(file_arrays.tempfile.gettempdir()),
+        Path(tempfile.gettempdir()),
     }

@@ -174,12 +174,13 @@ def test_a_window_counts_by_the_fourth_power_of_its_scatter_and_alike_below_the_
 def test_the_mean_is_that_of_weights_that_fade():
     rng, config = np.random.default_rng(3), AlignmentConfig(still_rate_std=1e-3)
     windows = [
-        Window(rng.normal(size=6), rng.uniform(5e-3, 1e-2, 6), 10**9 * k, 1.0) for k in range(40)
+        Window(rng.normal(size=6).tolist(), rng.uniform(5e-3, 1e-2, 6).tolist(), 10**9 * k, 1.0)
+        for k in range(40)
     ]
     stand, keep = FootStand(config), np.exp(-1.0 / 30.0)
     for window in windows:
         stand.add(window)
-    scatters = np.array([window.std[3:].max() for window in windows])
+    scatters = np.array([max(window.std[3:]) for window in windows])
     weights = stillness(scatters, 1e-3) * keep ** np.arange(39.0, -1.0, -1.0)
     means = np.array([window.mean for window in windows])
     mean = np.average(means, axis=0, weights=weights)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -60,12 +59,11 @@ class FirstStances:
         return left, right
 
     def _calm(self, window: Window) -> bool:
-        excess = abs(math.hypot(*window.mean[:3].tolist()) - self._gravity)
         return (
             window.rate_std < CALM_RATE_STD
-            and float(window.std[:3].max()) < CALM_FORCE_STD
-            and float(np.abs(window.mean[3:]).max()) < CALM_RATE
-            and excess < CALM_GRAVITY
+            and window.force_std < CALM_FORCE_STD
+            and window.largest_rate < CALM_RATE
+            and window.gravity_error(self._gravity) < CALM_GRAVITY
         )
 
     def _now(self, foot: int, stamp_ns: int) -> FootStandstill | None:
@@ -80,5 +78,5 @@ class FirstStances:
 
 def standstill_of(window: Window) -> FootStandstill:
     """Return what a window of a foot that only just stands tells: the level."""
-    force, end_ns = window.mean[:3], window.end_ns
-    return FootStandstill(force, np.zeros(3), BIAS_STD, TILT_STD, window.seconds, end_ns)
+    force, nothing = np.array(window.mean[:3]), np.zeros(3)
+    return FootStandstill(force, nothing, BIAS_STD, TILT_STD, window.seconds, window.end_ns)

@@ -109,7 +109,7 @@ class FootStand:
         self._weight = keep * self._weight + weight
         self._squares = keep**2 * self._squares + weight**2
         share = weight / self._weight
-        for k, value in enumerate(window.mean.tolist()):
+        for k, value in enumerate(window.mean):
             step = value - self._mean[k]
             self._mean[k] += share * step
             self._spread[k] = keep * self._spread[k] + weight * step * (value - self._mean[k])

@@ -52,7 +52,7 @@ class WholeWindows:
     def window(self, index: int) -> Window:
         """Return one of them."""
         end_ns = int(self.end_ns[index])
-        return Window(self.mean[index], self.std[index], end_ns, self.seconds)
+        return Window(self.mean[index].tolist(), self.std[index].tolist(), end_ns, self.seconds)
 
     def scatter_below(self, force_std: float, rate_std: float) -> BoolArray:
         """Return (W,) where the largest scatter about an axis is no more than these."""

@@ -6,7 +6,7 @@ import math
 from bisect import bisect_left
 from collections import deque
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,8 +19,7 @@ ROOM = 256  # samples, to begin with
 CORRELATION_S = 0.15  # time over which the angular rate of a standing foot is alike
 
 
-@dataclass(frozen=True)
-class Window:
+class Window(NamedTuple):
     """Mean and scatter of the samples (6,) of one foot: specific force, then angular rate.
 
     Attributes
@@ -29,8 +28,8 @@ class Window:
     seconds : its length
     """
 
-    mean: FloatArray
-    std: FloatArray
+    mean: list[float]
+    std: list[float]
     end_ns: int
     seconds: float
 
@@ -40,19 +39,22 @@ class Window:
         mean = np.add.reduce(samples) / len(samples)
         off = samples - mean
         std = np.sqrt(np.add.reduce(off * off) / len(samples))
-        return cls(mean, std, end_ns, seconds)
+        return cls(mean.tolist(), std.tolist(), end_ns, seconds)
 
     @property
     def rate_std(self) -> float:
         """Largest scatter of the angular rate about an axis, rad/s."""
-        largest: float = max(self.std[3:].tolist())
-        return largest
+        return max(self.std[3:])
 
     @property
     def force_std(self) -> float:
         """Largest scatter of the specific force along an axis, m/s^2."""
-        largest: float = max(self.std[:3].tolist())
-        return largest
+        return max(self.std[:3])
+
+    @property
+    def largest_rate(self) -> float:
+        """Largest mean angular rate about an axis, rad/s."""
+        return max(map(abs, self.mean[3:]))
 
     @property
     def mean_rate_std(self) -> float:
@@ -62,20 +64,21 @@ class Window:
     @property
     def mean_force_std(self) -> float:
         """Standard deviation of the mean specific force across gravity, m/s^2, in the same way."""
-        x, y, z = self.std[:3].tolist()
+        x, y, z = self.std[:3]
         across = math.sqrt(0.5 * (x * x + y * y + z * z))
         return across * math.sqrt(CORRELATION_S / max(self.seconds, CORRELATION_S))
 
+    def gravity_error(self, gravity: float) -> float:
+        """Return by how much the norm of the mean specific force differs from gravity, m/s^2."""
+        return abs(math.hypot(*self.mean[:3]) - gravity)
+
     def motion(self, config: AlignmentConfig, gravity: float) -> str | None:
         """Return why this window is no standstill, or None."""
-        mean: list[float] = self.mean.tolist()
-        excess = abs(math.hypot(*mean[:3]) - gravity)
-        largest = max(map(abs, mean[3:]))
         checks = (
             ("angular rate scatter", self.rate_std, config.max_rate_std, "rad/s"),
             ("specific force scatter", self.force_std, config.max_force_std, "m/s^2"),
-            ("mean angular rate", largest, config.max_rate, "rad/s"),
-            ("gravity error", excess, config.max_gravity_error, "m/s^2"),
+            ("mean angular rate", self.largest_rate, config.max_rate, "rad/s"),
+            ("gravity error", self.gravity_error(gravity), config.max_gravity_error, "m/s^2"),
         )
         for what, value, limit, unit in checks:
             if value > limit:
@@ -134,8 +137,10 @@ class WindowSlider:
     def windows(self, ahead: WindowsAhead) -> Iterator[tuple[int, Window]]:
         """Yield the windows that end among samples, and which of them is their last."""
         seconds = self._length_ns * 1e-9
-        for k, mean, std in zip(ahead.ends, *ahead.moments(), strict=True):
-            yield k - ahead.held, Window(mean, std, int(ahead.stamp_ns[k]), seconds)
+        means, stds = (each.tolist() for each in ahead.moments())
+        ends_ns = ahead.stamp_ns[ahead.ends].tolist()
+        for k, mean, std, end_ns in zip(ahead.ends, means, stds, ends_ns, strict=True):
+            yield k - ahead.held, Window(mean, std, end_ns, seconds)
 
     def take(self, ahead: WindowsAhead, count: int) -> None:
         """Take the first ``count`` of samples, as if they had come one by one."""

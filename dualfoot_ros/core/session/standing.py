@@ -45,7 +45,7 @@ class Stands:
     def _is_still(self, window: Window) -> bool:
         """Return whether a window can be of a standing foot, and not of a sensor that is stuck."""
         limits = self._config.alignment
-        mean = math.hypot(*window.mean[3:].tolist())
+        mean = math.hypot(*window.mean[3:])
         return 0.0 < window.rate_std <= limits.max_rate_std and mean <= limits.max_rate
 
     def _read(self, foot: int, stamp_ns: int) -> Window:
@@ -55,9 +55,9 @@ class Stands:
         variance = w[a + lay.A_SQUARES : a + lay.A_SQUARES + 3] / count - mean * mean
         std = np.sqrt(np.maximum(variance, 0.0))
         w[a + lay.A_SECONDS] = 0.0
-        nothing = np.zeros(3)
-        seconds = lay.STOOD_S
-        return Window(np.append(nothing, mean), np.append(nothing, std), stamp_ns, seconds)
+        nothing = [0.0, 0.0, 0.0]
+        parts = [*nothing, *mean.tolist()], [*nothing, *std.tolist()]
+        return Window(*parts, stamp_ns, lay.STOOD_S)
 
     def stood(self, foot: int) -> bool:
         """Return whether there is something to learn from the stand of ``foot``."""

@@ -24,8 +24,8 @@ def cache_directory() -> Path:
     ``DUALFOOT_CACHE_DIR`` overrides the user's cache directory.
     """
     code = loaded_code(kernel_functions(), MODULES)
-    text = f"{code} {_translation()} {sys.version} {_numba_version()}"
-    key = hashlib.sha256(text.encode()).hexdigest()[:16]
+    rest = f"{sys.version} {_numba_version()}".encode()
+    key = hashlib.sha256(b" ".join([code, *_translation(), rest])).hexdigest()[:16]
     home = os.environ.get("XDG_CACHE_HOME") or str(Path("~/.cache").expanduser())
     base = Path(os.environ.get("DUALFOOT_CACHE_DIR") or Path(home) / "dualfoot_ros")
     directory = base / f"kernel-{key}"
@@ -44,19 +44,17 @@ def usable_cache() -> Path | None:
 
 def loaded_code(
     functions: Mapping[str, types.FunctionType], modules: Iterable[types.ModuleType]
-) -> str:
+) -> bytes:
     """Return all that the compiled form depends on, as it was loaded (files may have changed)."""
-    codes = [
-        (name, f.__code__.co_code.hex(), f.__code__.co_consts, f.__code__.co_names)
-        for name, f in sorted(functions.items())
-    ]
+    codes = [(name, f.__code__) for name, f in sorted(functions.items())]
+    named = [(name, code.co_consts, code.co_names) for name, code in codes]
     numbers = sorted(
         (module.__name__, name, value)
         for module in modules
         for name, value in vars(module).items()
         if isinstance(value, int | float)
     )
-    return repr((codes, numbers))
+    return b" ".join([*(code.co_code for _, code in codes), repr((named, numbers)).encode()])
 
 
 def _translation() -> list[bytes]:

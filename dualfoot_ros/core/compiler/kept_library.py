@@ -23,7 +23,7 @@ def compiled_module(
     None where there is no C compiler, or nothing that it makes is good.
     """
     functions = {n: f for n, f in vars(module).items() if isinstance(f, types.FunctionType)}
-    key = hashlib.sha256(loaded_code(functions, [module]).encode()).hexdigest()[:16]
+    key = hashlib.sha256(loaded_code(functions, [module])).hexdigest()[:16]
     name = f"{module.__name__.rpartition('.')[2]}-{key}"
     return kept_library(usable_cache(), name, functions, entries, is_good)
 

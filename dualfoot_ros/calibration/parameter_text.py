@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 from ..core import all_specs, check
 from ..settings import parameter_file
@@ -18,7 +17,7 @@ def parameter_text(values: Mapping[str, float], remarks: Sequence[str]) -> str:
         When a value is out of the range of its parameter.
     """
     specs = [
-        replace(spec, default=check(spec, values[spec.name]))
+        spec._replace(default=check(spec, values[spec.name]))
         for spec in all_specs()
         if spec.name in values
     ]

@@ -126,8 +126,8 @@ def _facts(contents: Contents) -> dict[str, Any]:
     return {
         "notes": dict(recording.notes),
         "feet": feet,
-        "pressure": {w: asdict(pressure_facts(s)) for w, s in recording.pressure.items()},
-        "magnetic_field": {foot: asdict(f) for foot, f in recorded_fields(recording).items()},
+        "pressure": {w: pressure_facts(s)._asdict() for w, s in recording.pressure.items()},
+        "magnetic_field": {foot: f._asdict() for foot, f in recorded_fields(recording).items()},
         "truth": {foot: len(truth) for foot, truth in truths.items() if truth is not None},
         "reference": None if reference is None else reference.summary(),
         "findings": [finding.to_dict() for finding in contents.findings],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..core import FEET, STANDARD_GRAVITY
 from ..inspection import (
@@ -22,8 +22,7 @@ from ..recording import Recording, TopicInfo
 DEG = 180.0 / math.pi
 
 
-@dataclass(frozen=True)
-class Contents:
+class Contents(NamedTuple):
     """A recording, the topics of its bag, and the results of its inspection.
 
     ``stances`` are those of each foot; empty when they were not looked for.

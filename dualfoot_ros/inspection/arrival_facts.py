@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,8 +30,7 @@ AXES_FOR_UP = {
 """Axes forward, left, up for a sensor whose axis points up; forward is a guess."""
 
 
-@dataclass(frozen=True)
-class ArrivalFacts:
+class ArrivalFacts(NamedTuple):
     """What a sensor sends.
 
     Attributes

@@ -21,6 +21,7 @@ from __future__ import annotations
 import itertools
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -117,8 +118,7 @@ def _as_it_is(spans: Spans) -> _Fit:
     return _Fit(fit.candidate, float(found[0]), 1.0, SCALE_STD)
 
 
-@dataclass(frozen=True)
-class _Fit:
+class _Fit(NamedTuple):
     """Scale of the rate after ``candidate`` (3, 3) was applied to it, and what is left."""
 
     candidate: FloatArray

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -33,8 +33,7 @@ LEAST_STEPS = 5  # steps; fewer have no scatter
 FARTHEST_HEADING = 0.5  # rad; tracks that differ by more are not used
 
 
-@dataclass(frozen=True)
-class SideBySide:
+class SideBySide(NamedTuple):
     """The estimate and the data behind it.
 
     Attributes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,8 +10,7 @@ from ..core import FloatArray, PressureSeries
 from ..core.aids import RANGE_PA, pressure_height
 
 
-@dataclass(frozen=True)
-class PressureFacts:
+class PressureFacts(NamedTuple):
     """The samples of one sensor in figures.
 
     Attributes

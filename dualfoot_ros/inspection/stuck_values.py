@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -90,8 +91,7 @@ def _stuck_axes(triads: Triads, seconds: FloatArray, same: Sequence[BoolArray]) 
             yield _summarise(channel, runs, seconds)
 
 
-@dataclass(frozen=True)
-class Held:
+class Held(NamedTuple):
     """An axis that holds a value at rest: triad (0, 1), "x", "y" or "z", value, share of it."""
 
     triad: int

@@ -6,7 +6,7 @@ while the other has two has missed one, whatever the track says.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,8 +28,7 @@ STEP_STANCE_S = 1.2  # a longer stance is no step
 LEAST_HOLE_S = 0.1  # without a sample; a stance may be in it
 
 
-@dataclass(frozen=True)
-class StepFacts:
+class StepFacts(NamedTuple):
     """The steps of one foot.
 
     Attributes
@@ -64,8 +63,7 @@ class StepFacts:
     way_m: float
 
 
-@dataclass(frozen=True)
-class WalkFacts:
+class WalkFacts(NamedTuple):
     """The steps of both feet, and the feet against each other.
 
     Attributes

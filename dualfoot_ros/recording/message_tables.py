@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -39,8 +38,7 @@ _LAYOUT = {
 }
 
 
-@dataclass(frozen=True)
-class Table:
+class Table(NamedTuple):
     """All messages of one topic: stamps (N,) ns, values (N, K), strings of the first.
 
     ``log_ns`` (N,) are the times at which the messages were logged.  ``values`` are, by type, rate

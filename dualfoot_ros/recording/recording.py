@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from ..core import FEET, ImuSeries, PoseSeries, PressureSeries
 from .reference import Reference
@@ -18,8 +18,7 @@ class Correction(Protocol):
         """Return the corrected samples."""
 
 
-@dataclass(frozen=True)
-class ClockStep:
+class ClockStep(NamedTuple):
     """A clock that was set during the recording.
 
     Attributes

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
 from ..core import FEET, RecordingError
 from .open_bag import list_topics
@@ -21,8 +22,7 @@ NO_FORCE = re.compile(r"free|linear", re.IGNORECASE)  # gravity is taken out
 RATE = re.compile(r"gyr|angular|omega|rate_of_turn", re.IGNORECASE)
 
 
-@dataclass(frozen=True)
-class TopicChoice:
+class TopicChoice(NamedTuple):
     """The topics of both feet, and a sentence for each that was found by its name."""
 
     topics: Topics

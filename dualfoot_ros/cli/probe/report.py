@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote, urlsplit
@@ -47,7 +47,7 @@ class ProbeReport:
             "bytes": self.heard.bytes,
             "formats": [found._asdict() for found in self.heard.recognised],
             "bauds_tried": list(self.heard.tried),
-            "facts": None if self.facts is None else asdict(self.facts),
+            "facts": None if self.facts is None else self.facts._asdict(),
             "problems": self.problems,
             "advice": dict(self.advice),
         }

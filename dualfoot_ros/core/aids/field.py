@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,8 +26,7 @@ class FieldLog(Log[FloatArray]):
         return None if self.put(stamp_ns, field) else Refusal.FIELD_OUT_OF_ORDER
 
 
-@dataclass(frozen=True)
-class NavigationField:
+class NavigationField(NamedTuple):
     """A field (x, y, z) T in navigation axes, of which z points up."""
 
     x: float

@@ -29,6 +29,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -49,8 +50,7 @@ LONGEST_S = 1.2  # a middle farther back than half of it cannot be gone back to
 LEAST_LEVEL = 0.1  # share of the field; one that is steeper has no direction
 
 
-@dataclass(frozen=True)
-class FieldStance:
+class FieldStance(NamedTuple):
     """The field (3,) T in the axes of ``foot`` in the middle of a stance, at ``stamp_ns``."""
 
     foot: int

@@ -20,9 +20,8 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -40,8 +39,7 @@ SCATTER = math.radians(8.0)  # of a single direction about their mean
 LONGEST_S = 1.2  # a middle of a stance farther back than half of it cannot be gone back to
 
 
-@dataclass(frozen=True)
-class StraightLine:
+class StraightLine(NamedTuple):
     """A row: direction of ``foot`` and its reference, and the turns of both feet, rad."""
 
     foot: int

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -73,7 +72,7 @@ class FirstStances:
             return None
         force = self._turned[foot].T @ stance.specific_force
         moving = stamp_ns > stance.end_ns
-        return replace(stance, specific_force=force, moving=moving, end_ns=stamp_ns)
+        return stance._replace(specific_force=force, moving=moving, end_ns=stamp_ns)
 
 
 def standstill_of(window: Window) -> FootStandstill:

@@ -8,8 +8,7 @@ nothing; only motion ends a stand.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -24,8 +23,7 @@ FEWEST = 3.0  # independent windows below which their scatter alone says too lit
 Scatter = TypeVar("Scatter", float, FloatArray)
 
 
-@dataclass(frozen=True)
-class FootStandstill:
+class FootStandstill(NamedTuple):
     """What a standstill tells about one foot.
 
     Attributes
@@ -59,7 +57,7 @@ class FootStandstill:
 
     def with_bias(self, bias: FloatArray, std: float) -> FootStandstill:
         """Return the same with another gyro bias (3,) and its standard deviation, rad/s."""
-        return replace(self, angular_rate=bias, rate_std=std)
+        return self._replace(angular_rate=bias, rate_std=std)
 
 
 def absent_foot(gravity: float, stamp_ns: int) -> FootStandstill:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..samples.series import FloatArray
 
 
-@dataclass(frozen=True)
-class BiasPrior:
+class BiasPrior(NamedTuple):
     """A gyro bias (3,) rad/s and its standard deviation about each axis, rad/s."""
 
     mean: FloatArray

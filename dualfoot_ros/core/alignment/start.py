@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Generator, Iterator, Mapping
 from contextlib import closing
-from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -39,8 +39,7 @@ class StartKind(StrEnum):
     FIRST_STANCE = "first_stance"
 
 
-@dataclass(frozen=True)
-class Start:
+class Start(NamedTuple):
     """What a track starts from.
 
     Attributes

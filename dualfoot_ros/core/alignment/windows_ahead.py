@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,8 +13,7 @@ FEWEST_SAMPLES = 5  # of a window
 TOGETHER = 256  # windows whose samples are laid side by side: some megabytes
 
 
-@dataclass(frozen=True)
-class WindowsAhead:
+class WindowsAhead(NamedTuple):
     """What a slider would hold and give if it took some samples.
 
     Attributes

@@ -11,7 +11,7 @@ else is wrong with the track, as a constraint to a distance that the feet do not
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,8 +29,7 @@ FASTEST = 1.0  # m/s, of a floor that one steps on
 LONGEST_S = 3.0  # from the landing of one foot to that of the other
 
 
-@dataclass(frozen=True)
-class Landing:
+class Landing(NamedTuple):
     """The velocity (3,) m/s with which a foot has landed, where it is not that of the floor.
 
     ``epoch`` and ``stamp_ns`` are those of its first sample in stance.
@@ -42,8 +41,7 @@ class Landing:
     velocity: FloatArray
 
 
-@dataclass(frozen=True)
-class Step:
+class Step(NamedTuple):
     """Both feet on a floor that moves by ``velocity`` (3,) m/s against the one before.
 
     ``epoch`` and ``stamp_ns`` are those of the first landing.

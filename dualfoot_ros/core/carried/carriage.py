@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -162,7 +161,7 @@ class Carriage:
     def _end(self, now: int) -> Event:
         """Say that the ride is over, and let the floor be at rest."""
         assert self.kind is not None
-        ride = replace(self._ground.ride(self.kind, over=True), velocity=self._ride.mean_velocity)
+        ride = self._ground.ride(self.kind, over=True)._replace(velocity=self._ride.mean_velocity)
         self._ground.rest()
         self._ride.forget()
         self._boarding.forget()

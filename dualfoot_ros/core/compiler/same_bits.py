@@ -21,7 +21,7 @@ Calls = Mapping[str, Callable[..., Any]]
 
 def same_bits(functions: Calls) -> bool:
     """Return whether ``functions``, the entries by name, have the bits of the kernel in Python."""
-    plain = vars(interpreted())
+    plain = interpreted()._asdict()
     with np.errstate(all="ignore"):
         pairs = zip(_computed(functions), _computed(plain), strict=True)
         return all(ours == theirs for ours, theirs in pairs)

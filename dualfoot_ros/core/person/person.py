@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,8 +24,7 @@ SURE_S = 0.1  # a foot that has stood for so long is on the floor
 LONGEST_GAP_S = 1.0  # after a longer one nothing is remembered
 
 
-@dataclass(frozen=True)
-class PersonEstimate:
+class PersonEstimate(NamedTuple):
     """The person at one epoch, in the navigation frame (z up).
 
     Attributes

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,8 +21,7 @@ from .person import RATE_SPAN_S, PersonEstimate
 LONGEST_STEP_S = 0.5  # between two estimates; after a longer one the window fills anew
 
 
-@dataclass(frozen=True)
-class SmoothedPerson:
+class SmoothedPerson(NamedTuple):
     """The person at the middle of the window.
 
     Attributes

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,8 +19,7 @@ LONGEST_STEP_S = 3.0  # after a longer time there was a stand in between
 GOOD_M = 0.1  # error of a length up to which it counts as right
 
 
-@dataclass(frozen=True)
-class Step:
+class Step(NamedTuple):
     """One step: a foot has come to stand.
 
     Attributes

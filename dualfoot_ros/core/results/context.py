@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from .events import Event
 from .facing import NO_FACING, Facing
 
 
-@dataclass(frozen=True)
-class Context:
+class Context(NamedTuple):
     """What an update says beside numbers: of most it is that of the update before.
 
     ``facing`` is what the headings of the feet follow from, ``refused`` why the pair was refused,

@@ -92,8 +92,7 @@ class StanceEpochs(NamedTuple):
     last: int
 
 
-@dataclass(frozen=True)
-class StancePassing:
+class StancePassing(NamedTuple):
     """The middle of one stance, while the other foot swings by.
 
     Attributes

@@ -55,8 +55,7 @@ class Details:
 NO_DETAILS = Details()
 
 
-@dataclass(frozen=True)
-class Levelled:
+class Levelled(NamedTuple):
     """What a track starts from: gyro bias (rad/s) and specific force norm (m/s^2) by foot.
 
     ``kind`` is the name of a `StartKind`, ``bias_std`` the standard deviation of either bias,
@@ -82,8 +81,7 @@ class Levelled:
         return plain
 
 
-@dataclass(frozen=True)
-class StandBias:
+class StandBias(NamedTuple):
     """The gyro bias (3,) rad/s that a stand of ``seconds`` s gave, and its deviation, rad/s."""
 
     gyro_bias: list[float]
@@ -99,8 +97,7 @@ class StandBias:
         }
 
 
-@dataclass(frozen=True)
-class YawTurn:
+class YawTurn(NamedTuple):
     """A turn of a track by ``yaw`` rad about the vertical through ``pivot`` m, then a ``shift``.
 
     ``joint`` says that the other foot turns with it.
@@ -206,8 +203,7 @@ class FloorKind(StrEnum):
     WALKWAY = "walkway"
 
 
-@dataclass(frozen=True)
-class Ride:
+class Ride(NamedTuple):
     """A floor that carries the person: its velocity (3,) m/s, and how well that is known, m/s.
 
     ``seconds`` is how long it has carried the person.  When it does so no more (``over``), the
@@ -247,8 +243,7 @@ class FieldDirection:
         return {"aid": aid, "foot": self.foot, "field": self.field, "angle": self.angle}
 
 
-@dataclass(frozen=True)
-class PressureHeight:
+class PressureHeight(NamedTuple):
     """The mean pressure height (m) of a stance, from the sensor worn at ``worn``."""
 
     worn: str

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,8 +28,7 @@ MEAN_PLACES = (
 MEAN_SIGNS = np.outer(np.repeat([1.0, -1.0, 1.0], 3), np.repeat([1.0, -1.0, 1.0], 3))
 
 
-@dataclass(frozen=True)
-class FootEstimate:
+class FootEstimate(NamedTuple):
     """The estimate of one foot at one epoch, in the navigation frame (z up)."""
 
     row: FloatArray
@@ -74,8 +73,7 @@ class FootEstimate:
         return matrices(self.row[lay.O_COV_VEL : lay.O_COV_VEL + 9])
 
 
-@dataclass(frozen=True)
-class PedestrianEstimate:
+class PedestrianEstimate(NamedTuple):
     """The person between the feet.
 
     ``position`` is midway between the sensors.  ``heading`` is the direction the person faces,
@@ -135,7 +133,7 @@ class Update:
 
     def after(self, earlier: Sequence[Update]) -> Update:
         """Return the update with those of the pairs that had waited for the start of the track."""
-        return Update(self.stamp_ns, replace(self._context, earlier=tuple(earlier)), self._told)
+        return Update(self.stamp_ns, self._context._replace(earlier=tuple(earlier)), self._told)
 
     @property
     def events(self) -> tuple[Event, ...]:

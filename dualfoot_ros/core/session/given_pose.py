@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,8 +22,7 @@ from ..samples.series import FloatArray
 JOINT_ERRORS = 2 * lay.ERRORS
 
 
-@dataclass(frozen=True)
-class GivenPose:
+class GivenPose(NamedTuple):
     """A pose that the person is to have.
 
     Attributes

@@ -8,7 +8,7 @@ exact: nominal states, covariance and every snapshot turn with it, and an event 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,8 +27,7 @@ LEAST_WAY = 0.5  # m; a shorter way has no direction
 SCATTER_RATE = 0.03  # rad/s, of a foot's heading over two strides of a straight walk
 
 
-@dataclass(frozen=True)
-class Direction:
+class Direction(NamedTuple):
     """Where a foot went on its first strides.
 
     Attributes

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 from ...core import (
     FEET,
@@ -20,8 +21,7 @@ from .yaw_transform import FIRST_STRIDES_M, Align, Pair, YawTransform, fit
 Truth = tuple[PoseSeries, PoseSeries]
 
 
-@dataclass(frozen=True)
-class Options:
+class Options(NamedTuple):
     """The alignment: method, one transform for both feet or for each, length (m)."""
 
     align: Align = Align.FIRST_STRIDES

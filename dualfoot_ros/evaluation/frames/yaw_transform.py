@@ -16,8 +16,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -42,8 +43,7 @@ class Pair(StrEnum):
     EACH = "each"
 
 
-@dataclass(frozen=True)
-class YawTransform:
+class YawTransform(NamedTuple):
     """A turn by ``yaw`` (rad) about the vertical, then a shift by ``translation`` (3,) m."""
 
     yaw: float

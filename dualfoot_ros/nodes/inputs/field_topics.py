@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any
 
 from rclpy.node import Node
@@ -42,7 +41,7 @@ class FieldInput(WatchedInput):
         lacking = (
             f"aids.magnetic_heading is on but there is no magnetic field of the {self._foot} foot"
         )
-        return replace(complaint, text=f"{lacking}: {complaint.text}")
+        return complaint._replace(text=f"{lacking}: {complaint.text}")
 
 
 class FieldInputs:

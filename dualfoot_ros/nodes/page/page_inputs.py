@@ -6,7 +6,6 @@ import json
 import math
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -209,7 +208,7 @@ class PageInputs:
 
 
 def _with_remedy(complaint: Finding) -> Finding:
-    return replace(complaint, remedy=complaint.remedy or REMEDY)
+    return complaint._replace(remedy=complaint.remedy or REMEDY)
 
 
 def _pose(place: Place, heading: float) -> dict[str, float]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any, Protocol
 
 from rclpy.clock import Clock, ClockType
@@ -136,7 +135,7 @@ class WatchedInput:
         count = self._node.count_publishers(self.topic)
         who = f"topic '{self.topic}' has {count} publisher(s)"
         finding = silence(who, begun, now_s - since_s, config)
-        return replace(finding, remedy=self._remedy, about=self.topic)
+        return finding._replace(remedy=self._remedy, about=self.topic)
 
     def _find_fault(self) -> Finding | None:
         """Return why nothing can come, or None when something could.

@@ -6,7 +6,7 @@ The result is that of :class:`dualfoot_ros.timing.Aligner`, bit for bit.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,8 +18,7 @@ from .pairing_config import AlignerConfig
 from .stream_gate import Clean, clean
 
 
-@dataclass(frozen=True)
-class AlignReport:
+class AlignReport(NamedTuple):
     """What became of the samples; ``counters`` are those of the streaming aligner.
 
     ``overlap_s`` is the time during which both feet were on; not positive when they never were.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,8 +13,7 @@ from .pairing_config import AlignerConfig
 TOGETHER = 1 << 12  # stamps at once: what they need stays in the cache of the processor
 
 
-@dataclass(frozen=True)
-class GridLookup:
+class GridLookup(NamedTuple):
     """For each stamp of the grid the samples around it, and which rule gives its value.
 
     Attributes
@@ -50,8 +49,8 @@ class GridLookup:
         for start in range(0, len(grid), TOGETHER):
             part = slice(start, start + TOGETHER)
             some = cls._of_some(stamps, grid[part], config, lost)
-            for name, values in vars(whole).items():
-                values[part] = getattr(some, name)
+            for values, found in zip(whole, some, strict=True):
+                values[part] = found
         return whole
 
     @classmethod

@@ -12,8 +12,8 @@ that the cubic is steep: stamps of arrivals are.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import TypeVar
+from dataclasses import replace
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -67,8 +67,7 @@ def can_guide(
     return (interval <= config.max_gap_ns) & (2 * (count + 1) * interval >= hole)
 
 
-@dataclass(frozen=True)
-class Restored:
+class Restored(NamedTuple):
     """The samples of a foot, and those lost in short holes as far as they can be restored.
 
     Attributes

@@ -131,7 +131,7 @@ def test_numba_has_the_bits_where_there_is_no_compiler(monkeypatch, tmp_path):
     monkeypatch.setattr(compiled_kernel, "ENTRIES", few)
     made = compiled_kernel._from_numba(tmp_path)
     assert list(tmp_path.rglob("*.nbi"))
-    assert same_bits({**vars(interpreted()), **made})
+    assert same_bits({**interpreted()._asdict(), **made})
 
 
 def test_numba_keeps_its_own_settings():

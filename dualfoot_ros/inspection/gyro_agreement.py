@@ -203,10 +203,13 @@ def _at(spans: Spans, candidate: FloatArray, x: FloatArray) -> FloatArray:
 
 def _residuals(spans: Spans, matrices: FloatArray, biases: FloatArray) -> FloatArray:
     """Return the residuals (P, K, 6) with rates M w - b, for (P, 3, 3) M and (P, 3) b."""
-    rates = np.einsum("pij,lkj->ilpk", matrices, spans.rate)
-    rates -= biases.T[:, np.newaxis, :, np.newaxis] * spans.within[:, np.newaxis, :, 0]
+    x, y, z = np.moveaxis(spans.rate, -1, 0)[:, :, np.newaxis]
+    within = spans.within[:, np.newaxis, :, 0]
+    rows, offsets = matrices.transpose(1, 2, 0)[..., np.newaxis], biases.T[..., np.newaxis]
+    pairs = zip(rows, offsets, strict=True)
+    rates = np.stack([a * x + b * y + c * z - off * within for (a, b, c), off in pairs])
     halves = quaternions_of(0.5 * spans.step_s * rates)
-    forces = np.moveaxis(spans.force * spans.step_s, -1, 0)[:, :, np.newaxis]
+    forces = np.stack([*np.moveaxis(spans.force * spans.step_s, -1, 0)])[:, :, np.newaxis]
     attitude, velocity = one_after_another(products(halves, halves), turned(halves, forces))
     duration = spans.duration_s
     first, last = (np.moveaxis(g, -1, 0)[:, np.newaxis] for g in (spans.first, spans.last))

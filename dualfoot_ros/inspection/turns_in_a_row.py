@@ -20,14 +20,12 @@ def quaternions_of(turns: FloatArray) -> FloatArray:
 def products(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return the quaternions (4, ...) of first ``b``, then ``a``."""
     (ax, ay, az, aw), (bx, by, bz, bw) = a, b
-    return np.stack(
-        [
-            aw * bx + ax * bw + ay * bz - az * by,
-            aw * by - ax * bz + ay * bw + az * bx,
-            aw * bz + ax * by - ay * bx + az * bw,
-            aw * bw - ax * bx - ay * by - az * bz,
-        ]
-    )
+    made = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    np.subtract(aw * bx + ax * bw + ay * bz, az * by, out=made[0])
+    np.add(aw * by - ax * bz + ay * bw, az * bx, out=made[1])
+    np.add(aw * bz + ax * by - ay * bx, az * bw, out=made[2])
+    np.subtract(aw * bw - ax * bx - ay * by, az * bz, out=made[3])
+    return made
 
 
 def turned(quaternions: FloatArray, vectors: FloatArray) -> FloatArray:
@@ -55,4 +53,8 @@ def one_after_another(rotation: FloatArray, velocity: FloatArray) -> tuple[Float
 
 def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
     (ax, ay, az), (bx, by, bz) = a, b
-    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
+    made = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    np.subtract(ay * bz, az * by, out=made[0])
+    np.subtract(az * bx, ax * bz, out=made[1])
+    np.subtract(ax * by, ay * bx, out=made[2])
+    return made

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -103,7 +103,7 @@ def open_session(
         if start is None:
             start = alignment.add(stamp, row)
         elif alignment.refine(stamp, row):
-            start = replace(start, feet=alignment.result())
+            start = start._replace(feet=alignment.result())
     assert start is not None, alignment.complaint
     return Session(config, engine or quick_engine(), start), count
 

@@ -1,7 +1,6 @@
 """Which foot is on the left, and how far: from unconstrained tracks, and never a false alarm."""
 
 import math
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -66,8 +65,7 @@ def test_in_which_direction_the_walk_starts_does_not_matter(turned, seed):
     c, s = math.cos(turned), math.sin(turned)
     rotation = np.array([[c, -s], [s, c]])
     rotated = [
-        replace(
-            p,
+        p._replace(
             separation=rotation @ p.separation,
             forward=rotation @ p.forward,
             middle=rotation @ p.middle,
@@ -81,7 +79,7 @@ def test_in_which_direction_the_walk_starts_does_not_matter(turned, seed):
 
 def test_exchanging_the_feet_changes_the_sign_and_nothing_else():
     made = passings(EIGHT, 0.15, noise=0.03, drift=0.01)
-    other = [replace(p, separation=-p.separation, standing=1 - p.standing) for p in made]
+    other = [p._replace(separation=-p.separation, standing=1 - p.standing) for p in made]
     here, there = side_by_side(made), side_by_side(other)
     assert there.spacing_m == pytest.approx(-here.spacing_m, abs=1e-12)
     assert there.std_m == pytest.approx(here.std_m, abs=1e-12)
@@ -90,7 +88,7 @@ def test_exchanging_the_feet_changes_the_sign_and_nothing_else():
 def test_a_jump_of_a_track_is_a_new_placement_and_no_spacing():
     made = passings(EIGHT, 0.15)
     jumped = [
-        replace(p, separation=p.separation + (np.array([2.0, -3.0]) if k >= 20 else 0.0))
+        p._replace(separation=p.separation + (np.array([2.0, -3.0]) if k >= 20 else 0.0))
         for k, p in enumerate(made)
     ]
     found = side_by_side(jumped)

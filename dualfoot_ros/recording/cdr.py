@@ -150,5 +150,7 @@ def _read_texts(
     return strings, lengths_at, at + -(at - 4) % 8
 
 
-def _same(columns: NDArray[np.uint8]) -> bool:
-    return bool((columns == columns[0]).all())
+def _same(lengths: NDArray[np.uint8]) -> bool:
+    """Return whether four bytes (N, 4) are the same in all messages."""
+    numbers = np.ascontiguousarray(lengths).view(np.uint32)
+    return bool((numbers == numbers[0]).all())

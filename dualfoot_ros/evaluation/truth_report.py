@@ -31,7 +31,7 @@ def against_truth(aligned: Trajectory, truth: Truth) -> TruthReport:
     """Compare an aligned trajectory with the truth at its stamps."""
     feet = (aligned.left, aligned.right)
     falls = [Footfalls.of(foot) for foot in feet]
-    turns = (heading_error(f.quaternion, t.quaternion) for f, t in zip(feet, truth, strict=True))
+    turns = [heading_error(f.quaternion, t.quaternion) for f, t in zip(feet, truth, strict=True)]
     both = _where(aligned.left.present & aligned.right.present)
     heading = heading_errors(*(turn[both] for turn in turns))
     left, right, midpoint = _positions(feet, truth, falls)
@@ -39,8 +39,8 @@ def against_truth(aligned: Trajectory, truth: Truth) -> TruthReport:
         left=left,
         right=right,
         midpoint=midpoint,
-        left_strides=stride_errors(feet[0], truth[0], falls[0]),
-        right_strides=stride_errors(feet[1], truth[1], falls[1]),
+        left_strides=stride_errors(feet[0], truth[0], falls[0], turns[0]),
+        right_strides=stride_errors(feet[1], truth[1], falls[1], turns[1]),
         heading=heading,
         nees=consistency(
             feet, truth, (falls[0].middle, falls[1].middle), aligned.relative_covariance

@@ -28,11 +28,11 @@ def decode(
     doubles: int,
     texts: int = 1,
     kept: Sequence[slice] = (slice(None),),
-) -> tuple[IntArray, FloatArray, list[str]] | None:
-    """Return stamps (N,) ns, values (N, K) and the strings; None if layouts differ.
+) -> tuple[IntArray, list[FloatArray], list[str]] | None:
+    """Return stamps (N,) ns, parts (N, K) and the strings; None if layouts differ.
 
     ``texts`` strings follow the stamp, then ``doubles`` float64, of which the columns ``kept`` are
-    returned.  Little-endian messages only.
+    returned, each a part.  Little-endian messages only.
     """
     rows = MessageRows.of(messages)
     first = b"" if rows is None else rows[0]
@@ -50,7 +50,7 @@ def decode(
     bounds = [part.indices(doubles) for part in kept]
     parts = [rows.columns(start + 8 * a, start + 8 * b).view("<f8") for a, b, _ in bounds]
     stamps = seconds.astype(np.int64) * 1_000_000_000 + nanoseconds
-    return stamps, np.hstack(parts), strings
+    return stamps, parts, strings
 
 
 def decode_one(
@@ -150,5 +150,7 @@ def _read_texts(
     return strings, lengths_at, at + -(at - 4) % 8
 
 
-def _same(columns: NDArray[np.uint8]) -> bool:
-    return bool((columns == columns[0]).all())
+def _same(lengths: NDArray[np.uint8]) -> bool:
+    """Return whether four bytes (N, 4) are the same in all messages."""
+    numbers = np.ascontiguousarray(lengths).view(np.uint32)
+    return bool((numbers == numbers[0]).all())

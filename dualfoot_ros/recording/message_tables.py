@@ -39,26 +39,26 @@ _LAYOUT = {
 
 
 class Table(NamedTuple):
-    """All messages of one topic: stamps (N,) ns, values (N, K), strings of the first.
+    """All messages of one topic: stamps (N,) ns, parts (N, K) of them, strings of the first.
 
-    ``log_ns`` (N,) are the times at which the messages were logged.  ``values`` are, by type, rate
-    and specific force (6), a vector or field (3), pressure (1), or pose and velocity (7 + 3).
+    ``log_ns`` (N,) are the times at which the messages were logged.  ``parts`` are, by type, rate
+    (3) and specific force (3), a vector or field (3), pressure (1), or pose (7) and velocity (3).
     """
 
     stamp_ns: IntArray
-    values: FloatArray
+    parts: tuple[FloatArray, ...]
     texts: list[str]
     log_ns: IntArray
 
     @property
     def rate(self) -> FloatArray:
         """Angular rate (N, 3) of a topic of samples, or all of a topic of vectors."""
-        return self.values[:, :3]
+        return self.parts[0]
 
     @property
     def force(self) -> FloatArray:
         """Specific force (N, 3) of a topic of samples, or all of a topic of vectors."""
-        return self.values[:, -3:]
+        return self.parts[-1]
 
 
 class _Rows:
@@ -95,7 +95,8 @@ class TableBuilder:
     def __init__(self, msgtype: str, topic: str, expected: int = 0) -> None:
         """Begin the table of a topic of which so many messages are ``expected``."""
         self._topic, self._layout = topic, _LAYOUT[msgtype]
-        self._stamps, self._values, self._logged = (_Rows(expected) for _ in range(3))
+        self._stamps, self._logged = _Rows(expected), _Rows(expected)
+        self._parts = [_Rows(expected) for _ in self._layout.kept]
         self._files: list[tuple[int, int]] = []  # number of the file, and of messages in a row
         self._texts: list[str] = []
         self._count = 0
@@ -111,10 +112,11 @@ class TableBuilder:
         """
         layout = self._layout
         fast = cdr.decode(block.rows, layout.doubles, layout.texts, layout.kept)
-        stamps, values, texts = fast or self._one_by_one(block)
+        stamps, parts, texts = fast or self._one_by_one(block)
         self._texts = self._texts or texts
         self._stamps.add(stamps)
-        self._values.add(values)
+        for rows, part in zip(self._parts, parts, strict=True):
+            rows.add(part)
         self._logged.add(block.log_ns)
         self._sorted = self._sorted and block.file is None
         self._files.append((block.file or 0, len(stamps)))
@@ -123,21 +125,25 @@ class TableBuilder:
     def table(self) -> Table:
         """Return what was decoded, in the order of the recording."""
         if not self._count:
-            empty = np.empty(0, dtype=np.int64)
-            columns = sum(len(range(*p.indices(self._layout.doubles))) for p in self._layout.kept)
-            return Table(empty, np.empty((0, columns)), [""] * self._layout.texts, empty)
-        stamps, values, logged = (
-            each.all() for each in (self._stamps, self._values, self._logged)
-        )
+            return self._empty()
+        stamps, logged = self._stamps.all(), self._logged.all()
+        parts = tuple(rows.all() for rows in self._parts)
         if self._sorted:
-            return Table(stamps, values, self._texts, logged)
+            return Table(stamps, parts, self._texts, logged)
         files = np.repeat(*np.array(self._files, dtype=np.int64).T)
         if bool((np.diff(logged) >= 0).all() and (np.diff(files) >= 0).all()):
-            return Table(stamps, values, self._texts, logged)
+            return Table(stamps, parts, self._texts, logged)
         order = recorded_order(logged, files)
-        return Table(stamps[order], values[order], self._texts, logged[order])
+        parts = tuple(part[order] for part in parts)
+        return Table(stamps[order], parts, self._texts, logged[order])
 
-    def _one_by_one(self, block: Block) -> tuple[IntArray, FloatArray, list[str]]:
+    def _empty(self) -> Table:
+        """Return the table of a topic without messages."""
+        none, nothing = np.empty(0, dtype=np.int64), np.empty((0, self._layout.doubles))
+        parts = tuple(nothing[:, kept] for kept in self._layout.kept)
+        return Table(none, parts, [""] * self._layout.texts, none)
+
+    def _one_by_one(self, block: Block) -> tuple[IntArray, list[FloatArray], list[str]]:
         doubles, texts, kept = self._layout
         stamps = np.empty(len(block.rows), dtype=np.int64)
         values = np.empty((len(block.rows), doubles))
@@ -151,4 +157,4 @@ class TableBuilder:
                     "record again or cut the bag before it"
                 ) from error
             strings = strings or found
-        return stamps, np.hstack([values[:, part] for part in kept]), strings
+        return stamps, [values[:, part] for part in kept], strings

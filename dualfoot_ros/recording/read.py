@@ -199,24 +199,25 @@ def _on_stamps(imu: messages.Table, field: messages.Table) -> FloatArray:
     """Return the field (N, 3) at the stamps of the samples; nan where none was measured."""
     rows = np.full((len(imu.stamp_ns), 3), np.nan)
     _, at, source = np.intersect1d(imu.stamp_ns, field.stamp_ns, return_indices=True)
-    rows[at] = field.values[source]
+    rows[at] = field.parts[0][source]
     return rows
 
 
 def _truth(truth: messages.Table | None) -> PoseSeries | None:
     if truth is None:
         return None
-    quaternion, body_velocity = truth.values[:, 3:7], truth.values[:, 7:]
+    pose, body_velocity = truth.parts
+    position, quaternion = pose[:, :3], pose[:, 3:]
     if not len(quaternion):
-        return PoseSeries(truth.stamp_ns, truth.values[:, :3], quaternion, body_velocity)
+        return PoseSeries(truth.stamp_ns, position, quaternion, body_velocity)
     velocity = rotate_each(body_velocity, quaternion_matrices(quaternion))
-    return PoseSeries(truth.stamp_ns, truth.values[:, :3], quaternion, velocity)
+    return PoseSeries(truth.stamp_ns, position, quaternion, velocity)
 
 
 def _pressure(tables: dict[str, messages.Table], topics: Topics) -> dict[str, PressureSeries]:
     present = {worn: tables.get(topic) for worn, topic in topics.pressure.items()}
     return {
-        worn: PressureSeries(table.stamp_ns, table.values[:, 0])
+        worn: PressureSeries(table.stamp_ns, table.parts[0][:, 0])
         for worn, table in present.items()
         if table is not None and len(table.stamp_ns)
     }

@@ -12,8 +12,6 @@ Swings of less than 0.3 m (shuffling, turning on the spot) have no direction and
 
 from __future__ import annotations
 
-import math
-from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -23,7 +21,7 @@ import numpy as np
 from ..samples.by_block import picked
 from ..samples.series import BoolArray, FloatArray, IntArray
 from .events import FEET, EventKind
-from .trajectory import FootTrajectory, Trajectory, stance_bounds
+from .trajectory import Trajectory, stance_bounds
 
 LEAST_SWING_M = 0.3
 LONGEST_STANCE_S = 1.2  # a longer stance is no step
@@ -123,16 +121,7 @@ class StancePassing(NamedTuple):
 def stance_passings(trajectory: Trajectory) -> list[StancePassing]:
     """Return the passings of a walk in order; ``trajectory`` is best of method ``zupt``."""
     stances = [ended_stances(trajectory, foot) for foot in FEET]
-    tracks = (trajectory.left, trajectory.right)
-    stamps = trajectory.left.stamp_ns
-    longest = LONGEST_STANCE_S * 1e9
-    passings = [
-        passing
-        for foot in range(2)
-        for number, stance in enumerate(stances[foot])
-        if stamps[stance.last] - stamps[stance.first] <= longest
-        for passing in _passing(tracks, stances, foot, number)
-    ]
+    passings = [each for foot in range(2) for each in _passings(trajectory, stances, foot)]
     return sorted(passings, key=lambda passing: passing.epoch)
 
 
@@ -154,45 +143,70 @@ def ended_stances(trajectory: Trajectory, foot: str) -> list[StanceEpochs]:
     return stances
 
 
-def _passing(
-    tracks: tuple[FootTrajectory, FootTrajectory],
-    stances: list[list[StanceEpochs]],
-    foot: int,
-    number: int,
+def _passings(
+    trajectory: Trajectory, stances: list[list[StanceEpochs]], foot: int
 ) -> Iterator[StancePassing]:
-    """Yield the passing within one stance of ``foot``, if the other foot went by."""
-    stance = stances[foot][number]
-    moment = round((1.0 - MID_STANCE) * stance.first + MID_STANCE * stance.last)
-    swing = swing_around(stances[1 - foot], moment)
-    if swing is None:
-        return
-    way = _direction(tracks[1 - foot], *swing)
-    if way is None:
-        return
-    forward = way
-    if 0 < number < len(stances[foot]) - 1:
-        before, after = stances[foot][number - 1], stances[foot][number + 1]
-        own = _direction(tracks[foot], before.last, after.first)
-        forward = way if own is None else (way + own) / 2.0
-    size = math.sqrt(forward @ forward)
-    if size < SAME_WAY:
-        return
-    places = tracks[0].position[moment, :2], tracks[1].position[moment, :2]
-    middle = 0.5 * (places[0] + places[1])
-    separation = places[0] - places[1]
-    yield StancePassing(moment, foot, stance, swing, separation, forward / size, middle)
+    """Yield the passings within the stances of ``foot``, at which the other foot went by."""
+    tracks = trajectory.left.position, trajectory.right.position
+    own, other = (
+        np.reshape(np.array(stances[f], dtype=np.int64), (-1, 2)) for f in (foot, 1 - foot)
+    )
+    moments = np.rint(own @ [1.0 - MID_STANCE, MID_STANCE]).astype(np.int64)
+    number, swing = _swings_at(other, moments)
+    begin_ns, end_ns = trajectory.left.stamp_ns[own[number].T]
+    step = end_ns - begin_ns <= LONGEST_STANCE_S * 1e9
+    number, swing = number[step], swing[step]
+    forward = _forward(tracks[foot], own, number, _directions(tracks[1 - foot], swing))
+    known = ~np.isnan(forward[:, 0])
+    number, swing, forward = number[known], swing[known], forward[known]
+    places = [picked(track, moments[number])[:, :2] for track in tracks]
+    middle, separation = 0.5 * (places[0] + places[1]), places[0] - places[1]
+    plain = zip(number.tolist(), moments[number].tolist(), swing.tolist(), strict=True)
+    for k, (stance, at, (last, first)) in enumerate(plain):
+        epochs = stances[foot][stance]
+        yield StancePassing(at, foot, epochs, (last, first), separation[k], forward[k], middle[k])
 
 
-def swing_around(stances: list[StanceEpochs], epoch: int) -> tuple[int, int] | None:
-    """Return the epochs that bound the swing in which ``epoch`` lies, None within a stance."""
-    after = bisect_right(stances, epoch, key=lambda stance: stance.first)
-    if not 0 < after < len(stances) or stances[after - 1].last >= epoch:
-        return None
-    return stances[after - 1].last, stances[after].first
+def _forward(
+    position: FloatArray, stances: IntArray, number: IntArray, way: FloatArray
+) -> FloatArray:
+    """Return the mean direction (K, 2) of the feet's strides, nan where there is none.
+
+    ``way`` (K, 2) is that of the foot that goes by; the other one stands, and so in the stance
+    ``number`` (K,) of ``stances`` (M, 2).
+    """
+    inside = np.flatnonzero((number > 0) & (number < len(stances) - 1))
+    around = np.column_stack([stances[number[inside] - 1, 1], stances[number[inside] + 1, 0]])
+    both = (way[inside] + _directions(position, around)) / 2.0
+    forward = way.copy()
+    forward[inside] = np.where(np.isnan(both), way[inside], both)
+    size = _sizes(forward)
+    return forward / np.where(size < SAME_WAY, np.nan, size)[:, np.newaxis]
 
 
-def _direction(track: FootTrajectory, begin: int, end: int) -> FloatArray | None:
-    """Return the (2,) unit vector from one footprint to the next, None for a short swing."""
-    way: FloatArray = (track.position[end] - track.position[begin])[:2]
-    length = math.sqrt(way @ way)
-    return None if length < LEAST_SWING_M else way / length
+def _swings_at(stances: IntArray, epochs: IntArray) -> tuple[IntArray, IntArray]:
+    """Return which of ``epochs`` (K,) lie between two of the stances (M, 2), and what bounds it.
+
+    That is the last epoch of the stance before and the first of the one after.
+    """
+    after = np.searchsorted(stances[:, 0], epochs, side="right")
+    within = np.flatnonzero((after > 0) & (after < len(stances)))
+    after = after[within]
+    swing = np.column_stack([stances[after - 1, 1], stances[after, 0]])
+    apart = swing[:, 0] < epochs[within]
+    return within[apart], swing[apart]
+
+
+def _directions(position: FloatArray, swings: IntArray) -> FloatArray:
+    """Return unit vectors (K, 2) from one footprint to the next, nan for a short swing."""
+    last, first = swings.T
+    way = (picked(position, first) - picked(position, last))[:, :2]
+    size = _sizes(way)
+    directions: FloatArray = way / np.where(size < LEAST_SWING_M, np.nan, size)[:, np.newaxis]
+    return directions
+
+
+def _sizes(vectors: FloatArray) -> FloatArray:
+    """Return the lengths (K,) of vectors (K, 2)."""
+    sizes: FloatArray = np.sqrt((vectors[:, np.newaxis] @ vectors[:, :, np.newaxis])[:, 0, 0])
+    return sizes

@@ -15,11 +15,17 @@ PLACES, DECIMALS, SEPARATOR, ROWS, COLUMNS, ROOM = range(6)  # in `form`
 LARGEST = 2.0**52  # beyond, a float has no digits behind the point
 MIDDLE = 0.5
 HALVES = 134217729.0  # 2^27 + 1, which cuts a float into two of 26 bits (Dekker)
+NOT_NEGATIVE = 2**63 - 1  # the bits of numbers whose division needs no look at the sign
 ZERO, MINUS, POINT, NEW_LINE = 48, 45, 46, 10
 
 
 def write_rows(
-    form: IntArray, power: float, stamps: IntArray, values: FloatArray, text: IntArray
+    form: IntArray,
+    power: float,
+    stamps: IntArray,
+    values: FloatArray,
+    text: IntArray,
+    digits: IntArray,
 ) -> int:
     """Write rows of a stamp and values at the end of ``text``; return where they begin.
 
@@ -38,51 +44,59 @@ def write_rows(
             size = abs(value)
             if not size * power < LARGEST:
                 return -1
-            at = write_number(text, at, nearest(size, power), form[DECIMALS])
+            at = write_number(text, at, nearest(size, power), form[DECIMALS], digits)
             text[at - 1] = MINUS
             at -= int(math.copysign(1.0, value) < 0.0)  # else the separator takes its place
             at -= 1
             text[at] = form[SEPARATOR]
-        at = write_number(text, at, stamps[row], form[PLACES])
+        at = write_number(text, at, stamps[row], form[PLACES], digits)
     return at
 
 
-def write_number(text: IntArray, end: int, units: int, decimals: int) -> int:
+def write_number(text: IntArray, end: int, units: int, decimals: int, digits: IntArray) -> int:
     """Write a whole number before ``end`` with so many digits behind the point."""
-    at, rest = end, units
+    at, rest = end, units & NOT_NEGATIVE
+    while end - at < decimals - 3:
+        above = rest // 10000
+        write_four(text, at, rest - 10000 * above, digits)
+        at -= 4
+        rest = above
     while end - at < decimals:
-        if decimals - (end - at) > 3:  # four digits at once
-            above = rest // 10000
-            write_four(text, at, rest - 10000 * above)
-            at -= 4
-        else:
-            above = rest // 10
-            at -= 1
-            text[at] = ZERO + rest - 10 * above
+        above = rest // 10
+        at -= 1
+        text[at] = ZERO + rest - 10 * above
         rest = above
     if decimals > 0:
         at -= 1
         text[at] = POINT
-    above = rest // 10
-    at -= 1
-    text[at] = ZERO + rest - 10 * above
-    while above > 0:
+    return write_whole(text, at, rest, digits)
+
+
+def write_whole(text: IntArray, end: int, number: int, digits: IntArray) -> int:
+    """Write all digits of a number before ``end``; at least one."""
+    at, rest = end, number & NOT_NEGATIVE
+    while rest > 9999:
+        above = rest // 10000
+        write_four(text, at, rest - 10000 * above, digits)
+        at -= 4
         rest = above
+    while rest > 9:
         above = rest // 10
         at -= 1
         text[at] = ZERO + rest - 10 * above
-    return at
+        rest = above
+    text[at - 1] = ZERO + rest
+    return at - 1
 
 
-def write_four(text: IntArray, end: int, number: int) -> None:
-    """Write the four digits of a number below 10000 before ``end``."""
-    upper = (number * 5243) >> 19  # number // 100, which takes longer
-    lower = number - 100 * upper
-    first, third = (upper * 103) >> 10, (lower * 103) >> 10  # tens
-    text[end - 4] = ZERO + first
-    text[end - 3] = ZERO + upper - 10 * first
-    text[end - 2] = ZERO + third
-    text[end - 1] = ZERO + lower - 10 * third
+def write_four(text: IntArray, end: int, number: int, digits: IntArray) -> None:
+    """Write the four digits of a number below 10000 before ``end``, as they are in the table."""
+    at = 4 * number
+    first, second, third, fourth = digits[at], digits[at + 1], digits[at + 2], digits[at + 3]
+    text[end - 4] = first
+    text[end - 3] = second
+    text[end - 2] = third
+    text[end - 1] = fourth
 
 
 def nearest(size: float, power: float) -> int:

@@ -11,13 +11,14 @@ import numpy as np
 from ...core import FloatArray, IntArray
 from ...core.compiler import Entry, Functions, Kind, compiled_module
 from . import decimal_text
-from .number_text import BLOCK, lines, with_point
+from .number_text import BLOCK, DIGITS, lines, with_point
 
 MANY = 1 << 16  # rows of a table for which a library is made, which takes half a second once
 WIDEST = 32  # characters of a number of less than 2^63 with all that goes with it
 ENTRIES = {
     "write_rows": Entry(
-        (Kind.INTEGERS, Kind.REAL, Kind.INTEGERS, Kind.ROWS, Kind.BYTES), Kind.INTEGER
+        (Kind.INTEGERS, Kind.REAL, Kind.INTEGERS, Kind.ROWS, Kind.BYTES, Kind.BYTES),
+        Kind.INTEGER,
     )
 }
 
@@ -42,7 +43,9 @@ def write_table(
         rows = slice(first, first + BLOCK)
         own, values = stamps[rows], np.ascontiguousarray(values_of(rows))
         text = None if library is None else text_of(library, own, values, form)
-        file.write(text or lines(with_point(own, form.places), values, *form[1:]))
+        file.write(
+            lines(with_point(own, form.places), values, *form[1:]) if text is None else text
+        )
 
 
 @cache
@@ -53,14 +56,15 @@ def compiled_text() -> Functions | None:
 
 def text_of(
     functions: Functions, stamps: IntArray, values: FloatArray, form: Form
-) -> bytes | None:
+) -> memoryview | None:
     """Return the lines of some rows; None where a value is not finite, or too large."""
     count, columns = values.shape
     text = np.empty(count * (columns + 1) * WIDEST, dtype=np.uint8)
     numbers = np.array([*form[:2], ord(form.separator), count, columns, len(text)])
     stamps = np.ascontiguousarray(stamps)
-    begin = functions["write_rows"](numbers, 10.0**form.decimals, stamps, values, text)
-    return None if begin < 0 else text[begin:].tobytes()
+    given = stamps, values, text, DIGITS.view(np.uint8)
+    begin = functions["write_rows"](numbers, 10.0**form.decimals, *given)
+    return None if begin < 0 else text[begin:].data
 
 
 def _same_text(functions: Functions) -> bool:

@@ -123,14 +123,17 @@ def _rates(steps: FloatArray, values: FloatArray) -> FloatArray:
     return rates
 
 
-def forward_axis(track: FootTrajectory, falls: Footfalls) -> FloatArray | None:
+def forward_axis(
+    track: FootTrajectory, falls: Footfalls, places: FloatArray | None = None
+) -> FloatArray | None:
     """Return the (3,) axis in the sensor that is level and points ahead while the foot stands.
 
     It is the median direction of the straight strides, so the mounting need not be known; None
-    where there is no such stride.
+    where there is no such stride.  ``places`` (M, 3) are the means of the stances, where they are
+    known already.
     """
-    stood = falls.mean(track.position)
-    ways = np.diff(stood, axis=0)[:, :2]
+    places = falls.mean(track.position) if places is None else places
+    ways = np.diff(places, axis=0)[:, :2]
     lengths = np.linalg.norm(ways, axis=1)
     long = np.flatnonzero(lengths >= LEAST_STRIDE_M)
     ahead = np.column_stack([ways[long] / lengths[long, np.newaxis], np.zeros(len(long))])

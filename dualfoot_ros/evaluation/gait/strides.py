@@ -132,10 +132,10 @@ class _Foot:
     def of(cls, track: FootTrajectory, contacts: FootContacts) -> _Foot:
         falls = Footfalls.of(track)
         time = seconds(track.stamp_ns, int(track.stamp_ns[0]))
-        axis = forward_axis(track, falls)
+        place = falls.mean(track.position)
+        axis = forward_axis(track, falls, place)
         ahead = np.array([1.0, 0.0, 0.0]) if axis is None else axis
         faced = quaternion_matrices(picked(track.quaternion, falls.middle)) @ ahead
-        place = falls.mean(track.position)
         bounds = np.reshape(falls.bounds, (-1, 2))
         return cls(
             track.position,

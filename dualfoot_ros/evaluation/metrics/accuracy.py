@@ -83,13 +83,18 @@ class StrideErrors:
     length_ratio: float
 
 
-def stride_errors(estimate: FootTrajectory, truth: PoseSeries, falls: Footfalls) -> StrideErrors:
-    """Compare every stride, from the middle of one stance to that of the next, with the truth."""
+def stride_errors(
+    estimate: FootTrajectory, truth: PoseSeries, falls: Footfalls, turn: FloatArray
+) -> StrideErrors:
+    """Compare every stride, from the middle of one stance to that of the next, with the truth.
+
+    ``turn`` (N,) is the :func:`heading_error` of the estimate.
+    """
     at = falls.middle
     if len(at) < 2:
         nan = float("nan")
         return StrideErrors(0, nan, nan, nan, nan)
-    heading = heading_error(estimate.quaternion, truth.quaternion)[at]
+    heading = turn[at]
     moved = turned(np.diff(picked(estimate.position, at), axis=0), -heading[:-1])
     true = np.diff(picked(truth.position, at), axis=0)
     size = np.linalg.norm(moved - true, axis=1)

@@ -121,7 +121,10 @@ def _distinct(series: ImuSeries) -> NDArray[np.uint64]:
 def _marks(series: ImuSeries, part: slice) -> NDArray[np.uint64]:
     """Return a number for each of the samples of a part that are finite."""
     values = np.hstack([series.specific_force[part], series.angular_rate[part]])
-    bits = np.ascontiguousarray(values[np.isfinite(values).all(axis=1)]).view(np.uint64)
+    finite = np.isfinite(values)
+    if not finite.all():
+        values = values[finite.all(axis=1)]
+    bits = values.view(np.uint64)
     marks = np.zeros(len(bits), dtype=np.uint64)
     for column in bits.T:
         marks = (marks ^ column) * MIXER

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -44,6 +45,8 @@ class GridLookup(NamedTuple):
         """Place ``grid`` among increasing ``stamps``, of which some are of ``lost`` samples."""
         if not len(stamps):
             return cls._nowhere(len(grid))
+        if np.array_equal(stamps, grid):
+            return cls._everywhere(stamps, lost)
         kinds = np.int64, np.int64, np.float64, np.float64, bool, bool, bool, bool
         whole = cls(*(new_array(grid.shape, kind) for kind in kinds))
         for start in range(0, len(grid), TOGETHER):
@@ -79,6 +82,17 @@ class GridLookup(NamedTuple):
         none, zeros = np.zeros(count, dtype=bool), np.zeros(count, dtype=np.int64)
         return cls(zeros, zeros, np.zeros(count), np.zeros(count), none, none, none, ~none)
 
+    @classmethod
+    def _everywhere(cls, stamps: IntArray, lost: BoolArray | None) -> GridLookup:
+        """Return the lookup of a grid that is the stamps themselves."""
+        count, last = len(stamps), len(stamps) - 1
+        here, none = np.arange(count), np.zeros(count, dtype=bool)
+        width_s = np.diff(stamps, append=stamps[last:]) * 1e-9
+        made = none if lost is None else lost
+        return cls(
+            here, np.minimum(here + 1, last), np.zeros(count), width_s, ~none, made, none, none
+        )
+
     @property
     def found(self) -> BoolArray:
         """Where the foot has a value."""
@@ -90,7 +104,12 @@ class GridLookup(NamedTuple):
         return self.between | self.lost
 
     def take(self, series: ImuSeries, grid: IntArray, kept: BoolArray) -> ImuSeries:
-        """Return the series at the ``kept`` stamps of the grid, NaN where there is no value."""
+        """Return the series at the ``kept`` stamps of the grid, NaN where there is no value.
+
+        Where it has a sample at each of them, and no others, that is the series itself.
+        """
+        if self._takes_all(series, kept):
+            return replace(series, stamp_ns=grid)
         field = series.magnetic_field
         force, rate = (new_array((int(kept.sum()), 3)) for _ in range(2))
         force[:], rate[:] = np.nan, np.nan
@@ -106,6 +125,12 @@ class GridLookup(NamedTuple):
             None if field is None else self._values(field, kept),
             series.increments,
         )
+
+    def _takes_all(self, series: ImuSeries, kept: BoolArray) -> bool:
+        """Return whether each sample has its own stamp of the grid, and each stamp its sample."""
+        if len(series) != len(kept) or not (kept.all() and self.exact.all()):
+            return False
+        return np.array_equal(self.before, np.arange(len(kept)))
 
     def _between(self, series: ImuSeries, at: IntArray) -> FloatArray:
         """Return force and rate (K, 6) at places (K,) of the grid at which they are known."""

@@ -1,5 +1,7 @@
 """The moments at which the feet pass each other, on walks made by formula."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from evaluation.walks import SPACING, along, rectangle, straight
@@ -7,12 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dualfoot_ros.core import (
+    FEET,
     DualFootTracker,
     TrackerConfig,
     stance_bounds,
     stance_passings,
     swing_passings,
 )
+from dualfoot_ros.core.results.passings import ended_stances
 from dualfoot_ros.evaluation.frames.yaw_transform import YawTransform
 from dualfoot_ros.simulation import WalkConfig, simulate
 
@@ -98,3 +102,59 @@ def test_the_middles_of_stances_are_moments_of_the_true_passings_of_a_simulated_
         assert passing.left @ passing.forward == pytest.approx(0.0, abs=1e-12)
         assert passing.swing[0] < passing.epoch < passing.swing[1]
         assert passing.stance.first < passing.epoch < passing.stance.last
+
+
+def way_of(track, begin, end):
+    """Return the unit vector between two footprints, None for a short swing."""
+    way = (track.position[end] - track.position[begin])[:2]
+    length = np.sqrt(way @ way)
+    return None if length < 0.3 else way / length
+
+
+def passings_one_by_one(walk):
+    """Yield epoch, direction, middle and separation of each passing, foot by foot."""
+    tracks, stances = (walk.left, walk.right), [ended_stances(walk, foot) for foot in FEET]
+    for foot, own in enumerate(stances):
+        for number, (first, last) in enumerate(own):
+            moment = round(0.5 * first + 0.5 * last)
+            after = sum(begin <= moment for begin, _ in stances[1 - foot])
+            if not 0 < after < len(stances[1 - foot]) or stances[1 - foot][after - 1][1] >= moment:
+                continue
+            swing = stances[1 - foot][after - 1][1], stances[1 - foot][after][0]
+            way, along = way_of(tracks[1 - foot], *swing), None
+            if way is None or walk.left.stamp_ns[last] - walk.left.stamp_ns[first] > 1.2e9:
+                continue
+            if 0 < number < len(own) - 1:
+                along = way_of(tracks[foot], own[number - 1][1], own[number + 1][0])
+            forward = way if along is None else (way + along) / 2
+            size = np.sqrt(forward @ forward)
+            left, right = (track.position[moment, :2] for track in tracks)
+            if size >= 0.5:
+                yield (
+                    (moment, foot, (first, last), swing),
+                    *((forward / size).tolist(), (0.5 * (left + right)).tolist()),
+                    (left - right).tolist(),
+                )
+
+
+def test_the_stance_passings_of_a_walk_are_to_the_bit_those_one_by_one():
+    """In turns, and where tracks jump so far that feet go short ways and opposite ones."""
+    made = simulate(WalkConfig(route="rectangle"), seed=1)
+    tracks = DualFootTracker(TrackerConfig(method="zupt")).run(made.left, made.right)
+    jumps = np.random.default_rng(2).normal(0.0, 0.5, (len(tracks.left) // 50 + 1, 3))
+    tracks.left.position[:] += np.repeat(jumps, 50, axis=0)[: len(tracks.left)]
+    found = [
+        (
+            (each.epoch, each.standing, each.stance, each.swing),
+            *(values.tolist() for values in (each.forward, each.middle, each.separation)),
+        )
+        for each in stance_passings(tracks)
+    ]
+    expected = sorted(passings_one_by_one(tracks), key=lambda passing: passing[0][0])
+    assert found == expected and len(found) > 50
+
+
+def test_a_walk_without_stances_has_no_stance_passings():
+    made = simulate(WalkConfig(route="straight"), seed=1)
+    tracks = DualFootTracker(TrackerConfig(method="zupt")).run(made.left, made.right)
+    assert stance_passings(replace(tracks, events=())) == []

@@ -51,12 +51,12 @@ def with_numpy(stamps, values, form):
 
 def one_by_one(stamps, values, form):
     text = text_of(vars(decimal_text), stamps, values, form)
-    return None if text is None else text.decode()
+    return None if text is None else bytes(text).decode()
 
 
 def compiled(stamps, values, form):
     text = text_of(compiled_text(), stamps, values, form)
-    return None if text is None else text.decode()
+    return None if text is None else bytes(text).decode()
 
 
 needs_a_compiler = pytest.mark.skipif(not can_compile(), reason="there is no C compiler")

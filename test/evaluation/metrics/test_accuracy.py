@@ -44,11 +44,16 @@ def test_the_end_error_of_a_walk_without_distance_has_no_percentage():
     assert position_errors(np.ones((5, 3)), np.zeros(5)).end_percent is None
 
 
+def strides_of(track, truth):
+    turn = heading_error(track.quaternion, truth.quaternion)
+    return stride_errors(track, truth, Footfalls.of(track), turn)
+
+
 def test_a_scale_error_shows_in_the_length_of_the_strides_and_not_in_their_direction():
     _, truth, stance = straight()
     track = foot(truth, stance[1])
     track.position[:] *= 0.98
-    found = stride_errors(track, truth, Footfalls.of(track))
+    found = strides_of(track, truth)
     assert found.length_ratio == pytest.approx(0.98)
     assert found.rmse_m == pytest.approx(0.02 * 1.2)
     assert found.turn_rmse_deg == pytest.approx(0.0, abs=1e-9)
@@ -58,7 +63,7 @@ def test_a_scale_error_shows_in_the_length_of_the_strides_and_not_in_their_direc
 def test_a_constant_heading_error_is_no_error_of_the_strides():
     truth, _, stance = straight()
     track = YawTransform(0.5, np.array([3.0, 1.0, 0.0])).foot(foot(truth, stance[0]))
-    assert stride_errors(track, truth, Footfalls.of(track)).rmse_m == pytest.approx(0, abs=1e-9)
+    assert strides_of(track, truth).rmse_m == pytest.approx(0, abs=1e-9)
 
 
 @given(st.floats(-3, 3), st.floats(-1.4, 1.4), st.floats(-3, 3), st.floats(-3, 3))

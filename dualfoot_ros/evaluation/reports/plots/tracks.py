@@ -56,10 +56,12 @@ def draw_tracks(
 
 
 def _panel_size(runs: Mapping[str, Evaluation]) -> tuple[float, float]:
-    tracks = [
-        run.feet_tracks[foot].position[:, :2] for run in runs.values() for foot in run.tracked_feet
+    tracks = [run.feet_tracks[foot] for run in runs.values() for foot in run.tracked_feet]
+    ends = [
+        [end(track.position[:, axis]) for track in tracks for end in (np.min, np.max)]
+        for axis in range(2)
     ]
-    span = np.ptp(np.vstack(tracks), axis=0) + 1.0
+    span = np.ptp(ends, axis=1) + 1.0
     height = float(np.clip(6.5 * span[1] / span[0], 1.6, 7.5))
     return float(np.clip(height * span[0] / span[1] + 0.9, 3.2, 7.5)), height
 
@@ -79,14 +81,14 @@ def _panel(axis: Axes, run: Evaluation) -> None:
         )
     for foot in run.tracked_feet:
         track, colour = run.feet_tracks[foot], FOOT[foot]
-        stood = Footfalls.of(track).mean(track.position)
+        falls = Footfalls.of(track)
         # On a long walk both lines lie on each other: the first is wide, so that both show.
-        width = WIDE if foot == FEET[0] and len(stood) > MOST_DOTS else 0.9
+        width = WIDE if foot == FEET[0] and len(falls) > MOST_DOTS else 0.9
         axis.plot(
             *_from_above(track.position), color=colour, linewidth=width, label=f"{foot} foot"
         )
-        if len(stood) <= MOST_DOTS:
-            axis.plot(*stood[:, :2].T, ".", color=colour, markersize=4)
+        if len(falls) <= MOST_DOTS:
+            axis.plot(*falls.mean(track.position)[:, :2].T, ".", color=colour, markersize=4)
     _ends(axis, run)
     axis.set_aspect("equal", adjustable="box")
 

@@ -25,7 +25,7 @@ from .cases import Case
 
 TRACK_POINTS = 1500
 NEAR_S = 0.25
-GROUPS_A_PROCESS = 4  # or more: the last ones leave few processes without work
+GROUPS_A_PROCESS = 4  # of the last bags
 
 
 @dataclass(frozen=True)
@@ -51,16 +51,18 @@ class Job:
 def by_bag(jobs: Sequence[Job], processes: int) -> list[list[tuple[int, Job]]]:
     """Return the jobs with their indices in groups of one bag each, so that it is read once.
 
-    Where there are few bags for so many processes, the jobs of one make several groups.
+    The jobs of the last bags, one for each process, make several groups, so that in the end few
+    processes are without work for long.
     """
     bags: dict[str, list[tuple[int, Job]]] = {}
     for index, job in enumerate(jobs):
         bags.setdefault(job.bag, []).append((index, job))
-    parts = math.ceil(GROUPS_A_PROCESS * processes / max(1, len(bags))) if processes > 1 else 1
+    last = min(len(bags), processes) if processes > 1 else 0
+    parts = math.ceil(GROUPS_A_PROCESS * processes / max(1, last))
     return [
         own[start::count]
-        for own in bags.values()
-        for count in (min(parts, len(own)),)
+        for number, own in enumerate(bags.values(), start=1)
+        for count in (min(parts, len(own)) if number > len(bags) - last else 1,)
         for start in range(count)
     ]
 

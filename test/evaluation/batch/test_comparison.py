@@ -14,11 +14,14 @@ from dualfoot_ros.evaluation import evaluate
 from dualfoot_ros.evaluation.batch.cases import Case
 from dualfoot_ros.evaluation.batch.comparison import (
     Entry,
+    Job,
     _distance_errors,
     _tracks,
+    by_bag,
     least_distances,
     thinned,
 )
+from dualfoot_ros.evaluation.frames.gauge import Options
 from dualfoot_ros.evaluation.reports.comparison_rows import by_case, csv_text, flat, over_bags
 from dualfoot_ros.evaluation.reports.comparison_tables import tables
 
@@ -37,6 +40,28 @@ def walked(strides: int = 200, sideways: float = 0.0):
 def entry(found, label: str = "zupt", bag: str = "walk", swept=None) -> Entry:
     case = Case(label, TrackerConfig(method="zupt"), swept)
     return Entry(bag, case, found.to_dict(), _distance_errors(found), None, 0.5, _tracks(found))
+
+
+def jobs_on(bags: int, cases: int) -> list[Job]:
+    """Return jobs of so many cases on each of so many bags."""
+    names = [(f"bag{bag}", f"case{case}") for bag in range(bags) for case in range(cases)]
+    return [Job(bag, Case(case, TrackerConfig()), Options()) for bag, case in names]
+
+
+@pytest.mark.parametrize(
+    ("bags", "processes", "whole", "parts"),
+    [(8, 2, 6, 4), (3, 2, 1, 4), (2, 2, 0, 4), (1, 2, 0, 8), (1, 4, 0, 11), (8, 1, 8, 0)],
+)
+def test_bags_are_done_whole_but_for_the_last_one_of_each_process(bags, processes, whole, parts):
+    jobs = jobs_on(bags, 11)
+    groups = by_bag(jobs, processes)
+    assert sorted(pair for group in groups for pair in group) == sorted(enumerate(jobs))
+    assert all(len({job.bag for _, job in group}) == 1 for group in groups)
+    assert [len(group) for group in groups[:whole]] == [11] * whole
+    divided = groups[whole:]
+    assert len(divided) == parts * (bags - whole)
+    sizes = {len(group) for group in divided}
+    assert not sizes or max(sizes) - min(sizes) <= 1
 
 
 def test_the_true_moments_of_least_distance_are_found_once_a_passing():

@@ -25,7 +25,6 @@ from .cases import Case
 
 TRACK_POINTS = 1500
 NEAR_S = 0.25
-GROUPS_A_PROCESS = 4  # of the last bags
 
 
 @dataclass(frozen=True)
@@ -48,23 +47,37 @@ class Job:
     folder: str = ""
 
 
-def by_bag(jobs: Sequence[Job], processes: int) -> list[list[tuple[int, Job]]]:
+Indexed = tuple[int, Job]
+
+
+def by_bag(jobs: Sequence[Job], processes: int) -> list[list[Indexed]]:
     """Return the jobs with their indices in groups of one bag each, so that it is read once.
 
-    The jobs of the last bags, one for each process, make several groups, so that in the end few
-    processes are without work for long.
+    The jobs of the last bags, one for each process, make several groups, which become smaller, so
+    that in the end no process is without work for long.
     """
-    bags: dict[str, list[tuple[int, Job]]] = {}
+    bags: dict[str, list[Indexed]] = {}
     for index, job in enumerate(jobs):
         bags.setdefault(job.bag, []).append((index, job))
-    last = min(len(bags), processes) if processes > 1 else 0
-    parts = math.ceil(GROUPS_A_PROCESS * processes / max(1, last))
-    return [
-        own[start::count]
-        for number, own in enumerate(bags.values(), start=1)
-        for count in (min(parts, len(own)) if number > len(bags) - last else 1,)
-        for start in range(count)
-    ]
+    whole = max(0, len(bags) - processes) if processes > 1 else len(bags)
+    groups = list(bags.values())
+    return groups[:whole] + _divided(groups[whole:], processes)
+
+
+def _divided(groups: Sequence[list[Indexed]], processes: int) -> list[list[Indexed]]:
+    """Return parts of the groups, each half of what is left for one process: one of each in turn.
+
+    So a process that takes part after part mostly stays with its group.
+    """
+    parts = []
+    rest = [group for group in groups if group]
+    while rest:
+        sharing = processes / len(groups)
+        sizes = [math.ceil(len(group) / sharing / 2) for group in rest]
+        parts += [group[:size] for group, size in zip(rest, sizes, strict=True)]
+        left = [group[size:] for group, size in zip(rest, sizes, strict=True)]
+        rest = [group for group in left if group]
+    return parts
 
 
 @dataclass(frozen=True)

@@ -49,19 +49,22 @@ def jobs_on(bags: int, cases: int) -> list[Job]:
 
 
 @pytest.mark.parametrize(
-    ("bags", "processes", "whole", "parts"),
-    [(8, 2, 6, 4), (3, 2, 1, 4), (2, 2, 0, 4), (1, 2, 0, 8), (1, 4, 0, 11), (8, 1, 8, 0)],
+    ("bags", "processes", "sizes"),
+    [
+        (8, 1, [11] * 8),
+        (8, 2, [11, 11, 11, 11, 11, 11, 6, 6, 3, 3, 1, 1, 1, 1]),
+        (3, 2, [11, 6, 6, 3, 3, 1, 1, 1, 1]),
+        (1, 2, [3, 2, 2, 1, 1, 1, 1]),
+        (1, 16, [1] * 11),
+        (0, 2, []),
+    ],
 )
-def test_bags_are_done_whole_but_for_the_last_one_of_each_process(bags, processes, whole, parts):
+def test_bags_are_done_whole_but_for_the_last_one_of_each_process(bags, processes, sizes):
     jobs = jobs_on(bags, 11)
     groups = by_bag(jobs, processes)
-    assert sorted(pair for group in groups for pair in group) == sorted(enumerate(jobs))
+    assert [len(group) for group in groups] == sizes
+    assert sorted(pair for group in groups for pair in group) == list(enumerate(jobs))
     assert all(len({job.bag for _, job in group}) == 1 for group in groups)
-    assert [len(group) for group in groups[:whole]] == [11] * whole
-    divided = groups[whole:]
-    assert len(divided) == parts * (bags - whole)
-    sizes = {len(group) for group in divided}
-    assert not sizes or max(sizes) - min(sizes) <= 1
 
 
 def test_the_true_moments_of_least_distance_are_found_once_a_passing():

@@ -7,7 +7,7 @@ from nav_msgs.msg import Odometry, Path
 from rclpy.serialization import deserialize_message, serialize_message
 
 from dualfoot_ros.nodes.ros.cdr_imu import ImuBytes
-from dualfoot_ros.nodes.ros.cdr_odometry import OdometryBytes
+from dualfoot_ros.nodes.ros.cdr_odometry import OdometryBytes, OdometryNumbers
 from dualfoot_ros.nodes.ros.cdr_path import PathBytes, PathPose
 from dualfoot_ros.nodes.ros.messages import new_imu, set_imu_values, set_pose, set_time
 
@@ -45,6 +45,14 @@ def test_odometry_is_the_message_of_rclpy(frame, child):
         linear.x, linear.y, linear.z, angular.x, angular.y, angular.z = rest.tolist()
         message.pose.covariance, message.twist.covariance = pose.ravel(), twist.ravel()
         assert_same(made.data(), message)
+        read = OdometryNumbers([serialize_message(message), made.data()])
+        assert read.stamp_ns.tolist() == [STAMP + seed] * 2
+        for k in range(2):
+            assert read.position[k].tolist() == position.tolist()
+            assert read.quaternion[k].tolist() == quaternion.tolist()
+            assert read.linear[k].tolist() == rest[:3].tolist()
+            assert read.pose_covariance[k].tolist() == pose.tolist()
+            assert read.twist_covariance[k].tolist() == twist.tolist()
 
 
 def path_message(frame, poses):

@@ -96,6 +96,11 @@ class Session:
             if pid != self.pid and b"resource_tracker" not in _read(pid, "cmdline")
         ]
 
+    def forked(self) -> list[int]:
+        """Return those that were started by one of them, as workers are by their server."""
+        others = self.others()
+        return [pid for pid in others if _parent(pid) in others]
+
     def maps(self, pid: int, library: str) -> bool:
         """Tell whether a process has loaded a library."""
         return library.encode() in _read(pid, "maps")
@@ -161,6 +166,11 @@ def _read(pid: int, name: str) -> bytes:
 def _status(pid: int) -> list[bytes]:
     """Return the fields of /proc/PID/stat from the state on."""
     return _read(pid, "stat").rpartition(b")")[2].split()
+
+
+def _parent(pid: int) -> int:
+    fields = _status(pid)
+    return int(fields[1]) if fields else 0
 
 
 def _alive(session: int) -> list[int]:

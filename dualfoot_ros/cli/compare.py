@@ -24,7 +24,7 @@ from .arguments import (
 from .printing import print_failures, print_json, print_paths, progress, table_console
 
 if TYPE_CHECKING:
-    from ..evaluation.batch import Case, Entry, Failure, Job
+    from ..evaluation.batch import Case, Entry, Failure, Job, Pool
 
 CLUSTER_PROCESSES = 8  # for which the runs on one bag are divided, on a cluster of any size
 HELP = "run every method on one or many bags and put their figures side by side"
@@ -87,20 +87,22 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Compare, write, print; return the exit code."""
-    from ..evaluation.batch import default_jobs
+    from ..evaluation.batch import Pool, by_bag, default_jobs
     from ..evaluation.reports import check_directory, flat
 
     check_counts(args, repeat=20)
     if args.output is not None:
         check_directory(args.output, overwrite=args.overwrite)
-    jobs = _jobs(args, _cases(args))
-    entries, failures = _run(jobs, args.jobs or default_jobs(), args.scheduler)
-    print_failures("compare", failures)
-    if not entries:
-        return 2
-    rows = [flat(entry) for entry in entries]
-    document = _document(entries, failures)
-    paths = [] if args.output is None else _write(args, entries, rows, document)
+    jobs, processes = _jobs(args, _cases(args)), args.jobs or default_jobs()
+    groups = by_bag(jobs, processes if args.scheduler is None else CLUSTER_PROCESSES)
+    with Pool(processes, args.scheduler) as pool:
+        entries, failures = _run(jobs, groups, pool)
+        print_failures("compare", failures)
+        if not entries:
+            return 2
+        rows = [flat(entry) for entry in entries]
+        document = _document(entries, failures)
+        paths = [] if args.output is None else _write(args, entries, rows, document, pool)
     _print(args, rows, document, paths, _notes(entries))
     return 1 if failures else 0
 
@@ -143,18 +145,15 @@ def _jobs(args: argparse.Namespace, cases: Sequence[Case]) -> list[Job]:
 
 
 def _run(
-    jobs: Sequence[Job], processes: int, scheduler: str | None
+    jobs: Sequence[Job], groups: Sequence[Sequence[tuple[int, Job]]], pool: Pool
 ) -> tuple[list[Entry], dict[str, Failure]]:
     """Return the entries in the order of their jobs, and the failures by bag and case."""
-    from ..evaluation.batch import Failure, by_bag, compare_one, run_groups
+    from ..evaluation.batch import Failure, compare_one
 
-    groups = by_bag(jobs, processes if scheduler is None else CLUSTER_PROCESSES)
     entries: dict[int, Entry] = {}
     failures: dict[int, Failure] = {}
     with progress(f"{len(jobs)} runs") as update:
-        for count, done in enumerate(
-            run_groups(compare_one, groups, processes, scheduler), start=1
-        ):
+        for count, done in enumerate(pool.run_groups(compare_one, groups), start=1):
             if isinstance(done.result, Failure):
                 failures[done.index] = done.result
             else:
@@ -189,8 +188,8 @@ def _write(
     entries: Sequence[Entry],
     rows: list[dict[str, Any]],
     document: dict[str, Any],
+    pool: Pool,
 ) -> list[Path]:
-    from ..evaluation.batch import default_jobs
     from ..evaluation.reports import csv_text, report_folder, write_json
     from ..evaluation.reports.html import write_comparison_page
 
@@ -198,16 +197,15 @@ def _write(
         paths = [write_json(folder / "compare.json", document), folder / "compare.csv"]
         paths[1].write_text(csv_text(rows), encoding="utf-8")
         if not args.no_plots:
-            paths += _draw(entries, rows, folder, args.jobs or default_jobs())
+            paths += _draw(entries, rows, folder, pool)
             paths.append(write_comparison_page(folder, entries, rows, document["failed"]))
     return [args.output / path.name for path in paths]
 
 
 def _draw(
-    entries: Sequence[Entry], rows: list[dict[str, Any]], folder: Path, processes: int
+    entries: Sequence[Entry], rows: list[dict[str, Any]], folder: Path, pool: Pool
 ) -> list[Path]:
     """Draw a figure a bag, which takes as long as some runs on it, and one a swept parameter."""
-    from ..evaluation.batch import run_all
     from ..evaluation.reports.plots import draw_compared, draw_sweep
 
     figures = []
@@ -219,7 +217,7 @@ def _draw(
         path = folder / f"tracks_{name}{f'_{index}' if taken else ''}.png"
         if own:
             figures.append((own, path, name))
-    paths = run_all(draw_compared, figures, processes)
+    paths = pool.run_all(draw_compared, figures)
     swept = dict.fromkeys(row["swept"] for row in rows if row["swept"] is not None)
     return paths + [
         draw_sweep(rows, name, folder / f"sweep_{name.replace('.', '_')}.png") for name in swept

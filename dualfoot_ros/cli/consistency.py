@@ -90,12 +90,12 @@ def _jobs(args: argparse.Namespace, config: TrackerConfig) -> list[WalkJob]:
 def _run(
     jobs: Sequence[WalkJob], processes: int, scheduler: str | None
 ) -> tuple[list[WalkScores], dict[str, Failure]]:
-    from ..evaluation.batch import Failure, run_each, score_walk
+    from ..evaluation.batch import Failure, Pool, score_walk
 
     scores: dict[int, WalkScores] = {}
     failures: dict[str, Failure] = {}
-    with progress(f"{len(jobs)} walks") as update:
-        for count, done in enumerate(run_each(score_walk, jobs, processes, scheduler), start=1):
+    with progress(f"{len(jobs)} walks") as update, Pool(processes, scheduler) as pool:
+        for count, done in enumerate(pool.run_each(score_walk, jobs), start=1):
             if isinstance(done.result, Failure):
                 failures[f"walk of seed {jobs[done.index].seed}"] = done.result
             else:

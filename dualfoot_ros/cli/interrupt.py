@@ -102,6 +102,10 @@ def _kill_workers() -> None:
     with suppress(Exception):  # the main thread may be in the midst of starting or ending one
         for process in started.active_children() if started else ():
             process.kill()
+    server = sys.modules.get("dualfoot_ros.fork_server")
+    with suppress(Exception):
+        if server:
+            server.kill_fork_server()
 
 
 def _putting_in_order() -> bool:

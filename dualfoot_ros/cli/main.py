@@ -29,6 +29,7 @@ VERBS = {
     "consistency": "consistency",
     "live": "live",
 }
+WITH_WORKERS = ("compare", "consistency")
 EXIT_BAD_INPUT = 2
 EXIT_BROKEN_PIPE = 141
 
@@ -103,6 +104,10 @@ def _run_alone(name: str, arguments: list[str]) -> int:
     Modules stay to the end, so the garbage collector does not search them; nor does it search
     anything when the process ends.  Both took a twentieth of the time of a short command.
     """
+    if name in WITH_WORKERS and _wants_workers(arguments):
+        from ..fork_server import fork_server
+
+        fork_server()  # imports what workers need while we import the verb
     gc.disable()
     keep_freed_memory()
     load(name)
@@ -112,6 +117,17 @@ def _run_alone(name: str, arguments: list[str]) -> int:
         return _run(name, arguments)
     finally:
         gc.freeze()
+
+
+def _wants_workers(arguments: list[str]) -> bool:
+    """Tell it from arguments that have not been checked; one without its value is None."""
+    parser = argparse.ArgumentParser(add_help=False)
+    parser.add_argument("--jobs", nargs="?", default=str(len(os.sched_getaffinity(0))))
+    parser.add_argument("--scheduler", nargs="?", const="")
+    parser.add_argument("--help", "-h", action="store_true")
+    known, _ = parser.parse_known_args(arguments)
+    many = str(known.jobs).isdecimal() and int(known.jobs) > 1
+    return many and known.scheduler is None and not known.help
 
 
 def _run(name: str, arguments: list[str]) -> int:

@@ -13,10 +13,9 @@ from ..settings import InputConfig, node_specs
 from ..timing import StampConfig
 from .inputs.foot_streams import FootStreams
 from .ros import qos
-from .ros.cdr_imu import ImuBytes
+from .ros.cdr_imu import FilledImu, ImuBytes
 from .ros.declared_parameters import declare, group
 from .ros.diagnostics import Rates, Reporter
-from .ros.messages import new_imu, set_imu_values, set_time
 from .ros.program import Graph, Program, run_nodes
 from .ros.status import Status
 from .ros.watched_publisher import watched_publisher
@@ -42,7 +41,7 @@ class TimeSyncNode(Node):
         """Take the options of :class:`rclpy.node.Node`; raise ConfigError for bad parameters."""
         super().__init__("time_sync", **options)
         values = declare(self, node_specs("time_sync"))
-        self._messages = {foot: new_imu(f"{foot}_imu") for foot in FEET}
+        self._messages = {foot: FilledImu(f"{foot}_imu") for foot in FEET}
         profile = qos.sensor(group(InputConfig, values, "input.").depth)
         self._out = {
             foot: watched_publisher(self, Imu, f"{foot}/imu/data_sync", profile) for foot in FEET
@@ -61,20 +60,14 @@ class TimeSyncNode(Node):
 
     def _read_sample(self, foot: str, sample: ImuBytes, _stamp_ns: int) -> FloatArray:
         """Return the values (6,) of a message; pass on what interpolation does not change."""
-        message, received = self._messages[foot], sample.message
-        message.header.frame_id = received.header.frame_id
-        message.angular_velocity_covariance = received.angular_velocity_covariance
-        message.linear_acceleration_covariance = received.linear_acceleration_covariance
+        self._messages[foot].follow(sample)
         return sample.values
 
     def _publish(self, pair: ImuPair) -> None:
         for k, (foot, there) in enumerate(zip(FEET, pair.present, strict=True)):
-            if not there:
-                continue
-            message = self._messages[foot]
-            set_time(message.header.stamp, pair.stamp_ns)
-            set_imu_values(message, pair.values[6 * k : 6 * k + 6])
-            self._out[foot].publish(message)
+            if there:
+                values = pair.values[6 * k : 6 * k + 6]
+                self._out[foot].publish(self._messages[foot].data(pair.stamp_ns, values))
 
     def _collect(self, status: Status) -> None:
         counters = self.streams.aligner.counters

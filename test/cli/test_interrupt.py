@@ -155,7 +155,7 @@ def verb(session, bags):
 
 
 def imports(running, library):
-    """Tell whether a worker has loaded a library."""
+    """Tell whether a worker, or their server, has loaded a library."""
     return any(running.maps(pid, library) for pid in running.others())
 
 
@@ -166,11 +166,12 @@ def has_kernel(running):
 
 MOMENTS = {
     "before any import": lambda running, cpu_s: True,
+    "when the server of workers is started": lambda running, cpu_s: running.others(),
     "while it imports": lambda running, cpu_s: cpu_s > 0.3,
     "while it imports more": lambda running, cpu_s: cpu_s > 0.7,
-    "when a worker is started": lambda running, cpu_s: running.others(),
-    "when both are": lambda running, cpu_s: len(running.others()) == 2,
-    "while they import": lambda running, cpu_s: imports(running, "_multiarray_umath"),
+    "while the server imports": lambda running, cpu_s: imports(running, "_multiarray_umath"),
+    "when a worker is started": lambda running, cpu_s: running.forked(),
+    "when both are": lambda running, cpu_s: len(running.forked()) == 2,
     "while they load the kernel": lambda running, cpu_s: has_kernel(running),
     "while they work": lambda running, cpu_s: cpu_s > 1.0,  # from then on
 }

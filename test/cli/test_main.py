@@ -22,6 +22,32 @@ def test_help_shows_every_verb_with_what_it_does_and_examples(capsys):
     assert "examples:" in out
 
 
+@pytest.mark.parametrize(
+    ("arguments", "wanted"),
+    [
+        (["walk", "--jobs", "2"], True),
+        (["walk", "--jobs=12", "-o", "report"], True),
+        (["--jobs", "1", "walk"], False),
+        (["walk", "--jobs=1"], False),
+        (["walk", "--jobs", "two"], False),
+        (["walk", "--jobs"], False),
+        (["walk", "--jobs", "-3"], False),
+        (["walk", "--scheduler", "tcp://host:8786"], False),
+        (["walk", "--scheduler"], False),
+        (["walk", "--jobs", "2", "-h"], False),
+        ([], True),
+    ],
+)
+def test_workers_are_got_ready_where_arguments_ask_for_some(arguments, wanted, monkeypatch):
+    monkeypatch.setattr(command.os, "sched_getaffinity", lambda _: {0, 1, 2})
+    assert command._wants_workers(arguments) == wanted
+
+
+def test_one_core_without_jobs_has_no_workers(monkeypatch):
+    monkeypatch.setattr(command.os, "sched_getaffinity", lambda _: {5})
+    assert not command._wants_workers(["walk"])
+
+
 def test_without_a_verb_the_help_is_shown(capsys):
     assert main([]) == 0
     assert "verbs:" in capsys.readouterr().out

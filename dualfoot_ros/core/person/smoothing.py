@@ -12,11 +12,10 @@ import math
 from collections import deque
 from typing import NamedTuple
 
-import numpy as np
-
 from ..rotation import about_z
 from ..samples.series import FloatArray
 from .person import RATE_SPAN_S, PersonEstimate
+from .row_window import RowWindow
 
 LONGEST_STEP_S = 0.5  # between two estimates; after a longer one the window fills anew
 
@@ -52,7 +51,7 @@ class Smoother:
         self._kept: deque[PersonEstimate] = deque()
         # each: stamp since the start (s), heading (rad), position (3,) m; then since the one
         # before: forward, left, up (m), turn (rad)
-        self._rows: deque[tuple[float, ...]] = deque()
+        self._rows = RowWindow(8)
         self._last_ns: int | None = None
         self._stamps_ns = 0  # sum of the stamps that are kept
 
@@ -84,7 +83,7 @@ class Smoother:
             return None
         while person.stamp_ns - kept[1].stamp_ns >= self._window_ns:
             self._stamps_ns -= kept.popleft().stamp_ns
-            self._rows.popleft()
+            self._rows.drop_first()
         if self._last_ns is not None and person.stamp_ns - self._last_ns < self._period_ns:
             return None
         self._last_ns = person.stamp_ns
@@ -92,7 +91,7 @@ class Smoother:
 
     def _mean(self) -> SmoothedPerson:
         """Return the mean over the window."""
-        kept, rows = self._kept, np.array(self._rows)
+        kept, rows = self._kept, self._rows.rows()
         middle_ns = self._stamps_ns // len(kept)
         seconds = (kept[-1].stamp_ns - kept[0].stamp_ns) * 1e-9
         velocity = rows[1:, 4:].sum(axis=0) / seconds

@@ -3,13 +3,14 @@
 from .cases import Case, Sweep, case_names, make_cases
 from .comparison import Entry, Job, by_bag, compare_one
 from .monte_carlo import Score, WalkJob, WalkScores, score_walk, summarise
-from .parallel import Failure, default_jobs, run_all, run_each, run_groups
+from .parallel import Failure, Pool, default_jobs
 
 __all__ = [
     "Case",
     "Entry",
     "Failure",
     "Job",
+    "Pool",
     "Score",
     "Sweep",
     "WalkJob",
@@ -19,9 +20,6 @@ __all__ = [
     "compare_one",
     "default_jobs",
     "make_cases",
-    "run_all",
-    "run_each",
-    "run_groups",
     "score_walk",
     "summarise",
 ]

@@ -25,7 +25,6 @@ from .cases import Case
 
 TRACK_POINTS = 1500
 NEAR_S = 0.25
-GROUPS_A_PROCESS = 4  # or more: the last ones leave few processes without work
 
 
 @dataclass(frozen=True)
@@ -48,21 +47,37 @@ class Job:
     folder: str = ""
 
 
-def by_bag(jobs: Sequence[Job], processes: int) -> list[list[tuple[int, Job]]]:
+Indexed = tuple[int, Job]
+
+
+def by_bag(jobs: Sequence[Job], processes: int) -> list[list[Indexed]]:
     """Return the jobs with their indices in groups of one bag each, so that it is read once.
 
-    Where there are few bags for so many processes, the jobs of one make several groups.
+    The jobs of the last bags, one for each process, make several groups, which become smaller, so
+    that in the end no process is without work for long.
     """
-    bags: dict[str, list[tuple[int, Job]]] = {}
+    bags: dict[str, list[Indexed]] = {}
     for index, job in enumerate(jobs):
         bags.setdefault(job.bag, []).append((index, job))
-    parts = math.ceil(GROUPS_A_PROCESS * processes / max(1, len(bags))) if processes > 1 else 1
-    return [
-        own[start::count]
-        for own in bags.values()
-        for count in (min(parts, len(own)),)
-        for start in range(count)
-    ]
+    whole = max(0, len(bags) - processes) if processes > 1 else len(bags)
+    groups = list(bags.values())
+    return groups[:whole] + _divided(groups[whole:], processes)
+
+
+def _divided(groups: Sequence[list[Indexed]], processes: int) -> list[list[Indexed]]:
+    """Return parts of the groups, each half of what is left for one process: one of each in turn.
+
+    So a process that takes part after part mostly stays with its group.
+    """
+    parts = []
+    rest = [group for group in groups if group]
+    while rest:
+        sharing = processes / len(groups)
+        sizes = [math.ceil(len(group) / sharing / 2) for group in rest]
+        parts += [group[:size] for group, size in zip(rest, sizes, strict=True)]
+        left = [group[size:] for group, size in zip(rest, sizes, strict=True)]
+        rest = [group for group in left if group]
+    return parts
 
 
 @dataclass(frozen=True)

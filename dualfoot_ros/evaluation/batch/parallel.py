@@ -36,47 +36,81 @@ def default_jobs() -> int:
     return max(1, len(os.sched_getaffinity(0)))
 
 
-def run_each(
-    function: Callable[[Item], Result],
-    items: Sequence[Item],
-    jobs: int,
-    scheduler: str | None = None,
-) -> Iterator[Done[Result]]:
-    """Yield what ``function`` (of a module's top level) makes of every item, as they get done.
+class Pool:
+    """Where many runs are done, for a ``with`` block: here, in processes, or on a cluster.
 
-    With one job nothing leaves this process; with a ``scheduler`` all is done by the workers of a
-    cluster (:mod:`.cluster`).  An input that is refused (a DualFootError, or an OSError) becomes a
-    :class:`Failure`; any other exception ends everything.  When the caller stops early, or a
-    signal ends this process, the other processes end at once.
+    With one job nothing leaves this process; with more, the worker processes start when they are
+    first needed, and serve everything that is asked for in the block.  With a ``scheduler`` runs
+    are done by the workers of a cluster (:mod:`.cluster`), but for :meth:`run_all`.  When the
+    caller stops early, or a signal ends this process, the other processes end at once.
     """
-    attempt = partial(_attempt, function)
-    if scheduler is not None:
-        for index, result in run_on_cluster(attempt, items, scheduler):
+
+    def __init__(self, jobs: int, scheduler: str | None = None) -> None:
+        self._workers = Workers(jobs) if jobs > 1 else None
+        self._scheduler = scheduler
+
+    def __enter__(self) -> Pool:
+        if self._workers is not None:
+            self._workers.__enter__()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._workers is not None:
+            self._workers.__exit__()
+
+    def run_each(
+        self, function: Callable[[Item], Result], items: Sequence[Item]
+    ) -> Iterator[Done[Result]]:
+        """Yield what ``function`` (of a module's top level) makes of every item, as they get done.
+
+        An input that is refused (a DualFootError, or an OSError) becomes a :class:`Failure`; any
+        other exception ends everything.
+        """
+        attempt = partial(_attempt, function)
+        if self._scheduler is None:
+            yield from self._run_here(attempt, items)
+            return
+        for index, result in run_on_cluster(attempt, items, self._scheduler):
             yield Done(index, result)
-        return
-    if jobs <= 1 or len(items) <= 1:
-        for index, item in enumerate(items):
-            yield Done(index, attempt(item))
-        return
-    with Workers(attempt, min(jobs, len(items))) as workers:
-        for index, result in workers.each(items):
+
+    def run_groups(
+        self, function: Callable[[Item], Result], groups: Sequence[Sequence[tuple[int, Item]]]
+    ) -> Iterator[Done[Result]]:
+        """Do as :meth:`run_each` with items in groups, those of one in a row in one process.
+
+        Each item has its index with it.  Items that share what is slow to get (a recording) belong
+        into one group.
+        """
+        for done in self.run_each(partial(_attempt_all, function), groups):
+            assert not isinstance(done.result, Failure)
+            yield from done.result
+
+    def run_all(
+        self, function: Callable[..., Result], items: Sequence[tuple[Any, ...]]
+    ) -> list[Result]:
+        """Return what ``function`` makes of the arguments in every item, in their order.
+
+        Raises
+        ------
+        EvaluationError
+            When one of them is refused; the others are given up.
+        """
+        results: dict[int, Result] = {}
+        for done in self._run_here(partial(_attempt, partial(_called, function)), items):
+            if isinstance(done.result, Failure):
+                raise EvaluationError(done.result.sentence)
+            results[done.index] = done.result
+        return [results[index] for index in sorted(results)]
+
+    def _run_here(
+        self, attempt: Callable[[Item], Result | Failure], items: Sequence[Item]
+    ) -> Iterator[Done[Result]]:
+        if self._workers is None or len(items) <= 1:
+            for index, item in enumerate(items):
+                yield Done(index, attempt(item))
+            return
+        for index, result in self._workers.each(attempt, items):
             yield Done(index, result)
-
-
-def run_groups(
-    function: Callable[[Item], Result],
-    groups: Sequence[Sequence[tuple[int, Item]]],
-    jobs: int,
-    scheduler: str | None = None,
-) -> Iterator[Done[Result]]:
-    """Do as :func:`run_each` with items in groups, those of one in a row in one process.
-
-    Each item has its index with it.  Items that share what is slow to get (a recording) belong
-    into one group.
-    """
-    for done in run_each(partial(_attempt_all, function), groups, jobs, scheduler):
-        assert not isinstance(done.result, Failure)
-        yield from done.result
 
 
 def _attempt_all(
@@ -95,24 +129,6 @@ def _attempt(function: Callable[[Item], Result], item: Item) -> Result | Failure
             raise
         where = f"'{error.filename}': " if error.filename else ""
         return Failure(f"{where}{error.strerror}")
-
-
-def run_all(
-    function: Callable[..., Result], items: Sequence[tuple[Any, ...]], jobs: int
-) -> list[Result]:
-    """Return what ``function`` makes of the arguments in every item, in their order.
-
-    Raises
-    ------
-    EvaluationError
-        When one of them is refused; the others are given up.
-    """
-    results: dict[int, Result] = {}
-    for done in run_each(partial(_called, function), items, jobs):
-        if isinstance(done.result, Failure):
-            raise EvaluationError(done.result.sentence)
-        results[done.index] = done.result
-    return [results[index] for index in sorted(results)]
 
 
 def _called(function: Callable[..., Result], arguments: tuple[Any, ...]) -> Result:

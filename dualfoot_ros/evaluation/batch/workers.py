@@ -7,15 +7,16 @@ import os
 import signal
 import threading
 import traceback
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from multiprocessing import connection, resource_tracker
+from multiprocessing import connection
 from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
+from multiprocessing.context import ForkServerProcess
 from types import FrameType
-from typing import Any, Generic, TypeVar
+from typing import Any, TypeVar
 
 from ...core import EvaluationError
+from ...fork_server import fork_server
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -23,36 +24,34 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 LONGEST_WAIT_S = 0.1
 
 
-class Workers(Generic[Item, Result]):
-    """Processes that apply one function of a module's top level, for a ``with`` block.
+class Workers:
+    """At most ``most`` processes that apply functions of a module's top level, in a ``with``.
 
-    None is left when the block is left, nor when SIGINT or SIGTERM ends this process, at whatever
-    moment the signal comes.  Workers leave Ctrl-C to this process, and end by themselves when it
-    is killed.
+    They are started when they are needed, and kept for what comes later.  None is left when the
+    block is left, nor when SIGINT or SIGTERM ends this process, at whatever moment the signal
+    comes.  Workers leave Ctrl-C to this process, and end by themselves when it is killed.
     """
 
-    def __init__(self, function: Callable[[Item], Result], count: int) -> None:
-        self._function, self._count = function, count
-        self._processes: dict[Connection, SpawnProcess] = {}
+    def __init__(self, most: int) -> None:
+        self._most = most
+        self._processes: dict[Connection, ForkServerProcess] = {}
         self._before: dict[int, Any] = {}
         self._held = False
         self._noted: list[int] = []
 
-    def __enter__(self) -> Workers[Item, Result]:
+    def __enter__(self) -> Workers:
         self._take_signals()
-        try:
-            for _ in range(self._count):
-                self._start()
-        except BaseException:
-            self._end()
-            raise
         return self
 
     def __exit__(self, *_: object) -> None:
         self._end()
 
-    def each(self, items: Sequence[Item]) -> Iterator[tuple[int, Result]]:
-        """Yield the index of every item with its result, as they get done.
+    def each(
+        self, function: Callable[[Item], Result], items: Sequence[Item]
+    ) -> Iterator[tuple[int, Result]]:
+        """Yield the index of every item with what the function makes of it, as they get done.
+
+        When the caller stops early, or at an error, all processes end.
 
         Raises
         ------
@@ -61,31 +60,43 @@ class Workers(Generic[Item, Result]):
         Exception
             What the function has raised, with the worker's traceback as a note.
         """
-        waiting = iter(enumerate(items))
+        waiting = enumerate((function, item) for item in items)
         running: dict[Connection, int] = {}
-        for link in self._processes:
-            self._hand_out(waiting, link, running)
-        while running:
-            # Not for ever: a signal that another thread took is attended to when this one runs.
-            ready = connection.wait(list(running), LONGEST_WAIT_S)
-            for link in [each for each in running if each in ready]:
-                index, result = running.pop(link), self._receive(link)
+        try:
+            for link in self._enough_for(len(items)):
                 self._hand_out(waiting, link, running)
-                yield index, result
+            while running:
+                # Not for ever: a signal that another thread took waits until this one runs.
+                ready = connection.wait(list(running), LONGEST_WAIT_S)
+                for link in [each for each in running if each in ready]:
+                    result = self._receive(link)
+                    index = running.pop(link)
+                    self._hand_out(waiting, link, running)
+                    yield index, result
+        finally:
+            if running:
+                with self._undisturbed():
+                    self._kill()
+
+    def _enough_for(self, items: int) -> list[Connection]:
+        """Start what is missing of as many processes as have something to do; return the links."""
+        while len(self._processes) < min(self._most, items):
+            self._start()
+        return list(self._processes)
 
     def _hand_out(
-        self, waiting: Iterator[tuple[int, Item]], link: Connection, running: dict[Connection, int]
+        self, waiting: Iterator[tuple[int, Any]], link: Connection, running: dict[Connection, int]
     ) -> None:
-        """Give a worker the next item, if there is one."""
-        for index, item in waiting:
+        """Give a worker the next function and item, if there is one."""
+        for index, task in waiting:
             with self._ended_unasked(link):
-                link.send(item)
+                link.send(task)
             running[link] = index
             return
 
-    def _receive(self, link: Connection) -> Result:
+    def _receive(self, link: Connection) -> Any:
         with self._ended_unasked(link):
-            answer: tuple[Result, Exception | None] = link.recv()
+            answer: tuple[Any, Exception | None] = link.recv()
         result, error = answer
         if error is not None:
             raise error
@@ -102,10 +113,10 @@ class Workers(Generic[Item, Result]):
             raise EvaluationError(f"a worker process has ended with exit code {code}") from None
 
     def _start(self) -> None:
-        context = multiprocessing.get_context("spawn")  # a fork copies locks that threads hold
+        context = fork_server()
         ours, theirs = context.Pipe()
-        process = context.Process(target=_serve, args=(theirs, self._function), daemon=True)
-        with self._undisturbed(), _sigint_blocked():
+        process = context.Process(target=_serve, args=(theirs, dict(os.environ)), daemon=True)
+        with self._undisturbed():
             process.start()
             self._processes[ours] = process
         theirs.close()
@@ -119,7 +130,8 @@ class Workers(Generic[Item, Result]):
         """End every worker, whatever it does: nothing it has is worth keeping."""
         for process in self._processes.values():
             process.kill()
-        for link, process in self._processes.items():
+        while self._processes:
+            link, process = self._processes.popitem()
             process.join()
             link.close()
 
@@ -167,23 +179,14 @@ class Workers(Generic[Item, Result]):
         signal.raise_signal(number)
 
 
-@contextmanager
-def _sigint_blocked() -> Iterator[None]:
-    """Let a process that is started here never see SIGINT, not even while it imports."""
-    resource_tracker.ensure_running()  # started with the first process, it would lift the block
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _serve(link: Connection, function: Callable[[Item], Result]) -> None:
-    """Apply the function to what comes over the link until nobody is there any more."""
+def _serve(link: Connection, environment: Mapping[str, str]) -> None:
+    """Apply functions to what comes with them over the link until nobody is there any more."""
+    os.environ.clear()
+    os.environ.update(environment)
     threading.Thread(target=_end_with_the_parent, daemon=True).start()
     while True:
         try:
-            link.send(_answer(function, link.recv()))
+            link.send(_answer(*link.recv()))
         except (EOFError, ConnectionError):
             return
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import atexit
 from functools import partial
+from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import Any
 
@@ -48,9 +50,10 @@ def _action(start: Start) -> Any:
 
 
 def _written(content: dict[str, Any]) -> list[str]:
-    """Write a parameter file and return its path; it stays, as those that `launch` writes."""
+    """Write a parameter file and return its path; it goes when the process of the launch ends."""
     if not content:
         return []
     with NamedTemporaryFile("w", prefix="dualfoot_", suffix=".yaml", delete=False) as file:
+        atexit.register(Path(file.name).unlink, missing_ok=True)
         yaml.safe_dump(content, file)
     return [file.name]

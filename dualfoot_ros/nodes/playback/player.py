@@ -13,7 +13,7 @@ from ...core import FEET, FieldSeries, FloatArray, ImuSeries, PressureSeries
 from ...settings import PlayConfig
 
 Series = ImuSeries | PressureSeries | FieldSeries
-GATE_POLL = 0.0005  # s
+GATE_POLL = 0.005  # s; a gate closes with much more under way than a listener takes in it
 READY_POLL = 0.01  # s
 DISCOVERY_S = 0.5  # a subscriber that is there may take 0.1 s more to find the publisher
 LONGEST_NAP = 0.1  # s, so that a stop takes effect soon

@@ -8,6 +8,7 @@ have their place in one buffer.  A publisher of rclpy takes the bytes as they ar
 from __future__ import annotations
 
 import struct
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -74,3 +75,24 @@ class OdometryBytes:
     def data(self) -> bytes:
         """Return the message as it is now."""
         return bytes(self._message)
+
+
+class OdometryNumbers:
+    """What stands in the bytes of messages that :class:`OdometryBytes` has made, N of them.
+
+    Attributes
+    ----------
+    stamp_ns : (N,) ns
+    position, quaternion : (N, 3) m and (N, 4) x y z w
+    pose_covariance, twist_covariance : (N, 6, 6)
+    linear : (N, 3) m/s in the child frame
+    """
+
+    def __init__(self, messages: Sequence[bytes]) -> None:
+        stamps = [STAMP.unpack_from(data, len(ENCAPSULATION)) for data in messages]
+        self.stamp_ns = np.array([s * SECOND + ns for s, ns in stamps], dtype=np.int64)
+        numbers = b"".join(data[-8 * DOUBLES :] for data in messages)
+        values = np.frombuffer(numbers, dtype="<f8").reshape(-1, DOUBLES)
+        self.position, self.quaternion = values[:, :3], values[:, 3:7]
+        self.pose_covariance = values[:, 7:43].reshape(-1, 6, 6)
+        self.linear, self.twist_covariance = values[:, 43:46], values[:, 49:].reshape(-1, 6, 6)

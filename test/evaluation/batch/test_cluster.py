@@ -12,7 +12,7 @@ from processes import ROOT, environment
 
 from dualfoot_ros.core import DualFootError, EvaluationError
 from dualfoot_ros.evaluation.batch import cluster
-from dualfoot_ros.evaluation.batch.parallel import Failure, run_each, run_groups
+from dualfoot_ros.evaluation.batch.parallel import Failure, Pool
 
 distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
 
@@ -52,32 +52,36 @@ def broken(_: int) -> int:
 
 def test_results_and_refusals_are_those_of_local_runs(address):
     items = [4, -1, 8]
-    there = sorted(run_each(halved, items, 1, address), key=lambda done: done.index)
-    assert there == sorted(run_each(halved, items, 1), key=lambda done: done.index)
+    with Pool(1, address) as pool:
+        there = sorted(pool.run_each(halved, items), key=lambda done: done.index)
+    with Pool(1) as pool:
+        assert there == list(pool.run_each(halved, items))
     assert there[1].result == Failure("-1 is negative")
 
 
 def test_items_of_a_group_keep_their_indices(address):
     groups = [[(0, 4), (2, 8)], [(1, -1)]]
-    there = sorted(run_groups(halved, groups, 1, address), key=lambda done: done.index)
+    with Pool(1, address) as pool:
+        there = sorted(pool.run_groups(halved, groups), key=lambda done: done.index)
     assert [done.result for done in there] == [2.0, Failure("-1 is negative"), 4.0]
 
 
 def test_the_work_of_a_worker_that_is_killed_is_done_by_another(address, tmp_path):
     items = [(str(tmp_path / "mark"), number) for number in range(8)]
-    done = {each.index: each.result for each in run_each(killed_once, items, 1, address)}
+    with Pool(1, address) as pool:
+        done = {each.index: each.result for each in pool.run_each(killed_once, items)}
     assert (tmp_path / "mark").exists()
     assert done == {number: number * number for number in range(8)}
 
 
 def test_a_defect_is_not_hidden(address):
-    with pytest.raises(ZeroDivisionError):
-        list(run_each(broken, [1], 1, address))
+    with pytest.raises(ZeroDivisionError), Pool(1, address) as pool:
+        list(pool.run_each(broken, [1]))
 
 
 def test_a_caller_that_stops_early_leaves_nothing_behind(address):
-    with distributed.Client(address, set_as_default=False) as client:
-        runs = run_each(halved, list(range(50)), 1, address)
+    with distributed.Client(address, set_as_default=False) as client, Pool(1, address) as pool:
+        runs = pool.run_each(halved, list(range(50)))
         next(runs)
         runs.close()
         deadline = time.monotonic() + 60.0  # guards against hanging, and judges nothing
@@ -88,8 +92,11 @@ def test_a_caller_that_stops_early_leaves_nothing_behind(address):
 
 def test_an_address_where_nobody_is_is_a_sentence(monkeypatch):
     monkeypatch.setattr(cluster, "CONNECT_S", 0.2)
-    with pytest.raises(EvaluationError, match=r"no scheduler of dask answers at 'tcp://127"):
-        list(run_each(halved, [1], 1, "tcp://127.0.0.1:9"))
+    with (
+        pytest.raises(EvaluationError, match=r"no scheduler of dask answers at 'tcp://127"),
+        Pool(1, "tcp://127.0.0.1:9") as pool,
+    ):
+        list(pool.run_each(halved, [1]))
 
 
 def test_compare_writes_on_a_cluster_what_it_writes_here(address, tmp_path):

@@ -14,11 +14,14 @@ from dualfoot_ros.evaluation import evaluate
 from dualfoot_ros.evaluation.batch.cases import Case
 from dualfoot_ros.evaluation.batch.comparison import (
     Entry,
+    Job,
     _distance_errors,
     _tracks,
+    by_bag,
     least_distances,
     thinned,
 )
+from dualfoot_ros.evaluation.frames.gauge import Options
 from dualfoot_ros.evaluation.reports.comparison_rows import by_case, csv_text, flat, over_bags
 from dualfoot_ros.evaluation.reports.comparison_tables import tables
 
@@ -37,6 +40,31 @@ def walked(strides: int = 200, sideways: float = 0.0):
 def entry(found, label: str = "zupt", bag: str = "walk", swept=None) -> Entry:
     case = Case(label, TrackerConfig(method="zupt"), swept)
     return Entry(bag, case, found.to_dict(), _distance_errors(found), None, 0.5, _tracks(found))
+
+
+def jobs_on(bags: int, cases: int) -> list[Job]:
+    """Return jobs of so many cases on each of so many bags."""
+    names = [(f"bag{bag}", f"case{case}") for bag in range(bags) for case in range(cases)]
+    return [Job(bag, Case(case, TrackerConfig()), Options()) for bag, case in names]
+
+
+@pytest.mark.parametrize(
+    ("bags", "processes", "sizes"),
+    [
+        (8, 1, [11] * 8),
+        (8, 2, [11, 11, 11, 11, 11, 11, 6, 6, 3, 3, 1, 1, 1, 1]),
+        (3, 2, [11, 6, 6, 3, 3, 1, 1, 1, 1]),
+        (1, 2, [3, 2, 2, 1, 1, 1, 1]),
+        (1, 16, [1] * 11),
+        (0, 2, []),
+    ],
+)
+def test_bags_are_done_whole_but_for_the_last_one_of_each_process(bags, processes, sizes):
+    jobs = jobs_on(bags, 11)
+    groups = by_bag(jobs, processes)
+    assert [len(group) for group in groups] == sizes
+    assert sorted(pair for group in groups for pair in group) == list(enumerate(jobs))
+    assert all(len({job.bag for _, job in group}) == 1 for group in groups)
 
 
 def test_the_true_moments_of_least_distance_are_found_once_a_passing():

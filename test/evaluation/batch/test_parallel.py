@@ -3,7 +3,7 @@
 import pytest
 
 from dualfoot_ros.core.errors import DualFootError, EvaluationError
-from dualfoot_ros.evaluation.batch.parallel import Failure, run_all, run_each
+from dualfoot_ros.evaluation.batch.parallel import Failure, Pool
 
 
 def halved(number: int) -> float:
@@ -16,7 +16,8 @@ def halved(number: int) -> float:
 
 @pytest.mark.parametrize("jobs", (1, 2))
 def test_every_item_is_done_once_and_what_is_refused_is_a_sentence_while_the_others_go_on(jobs):
-    done = list(run_each(halved, [4, -1, 99, 6, 2], jobs))
+    with Pool(jobs) as pool:
+        done = list(pool.run_each(halved, [4, -1, 99, 6, 2]))
     assert len(done) == 5
     assert {each.index: each.result for each in done} == {
         0: 2.0,
@@ -29,8 +30,8 @@ def test_every_item_is_done_once_and_what_is_refused_is_a_sentence_while_the_oth
 
 @pytest.mark.parametrize("jobs", (1, 2))
 def test_a_defect_is_not_hidden(jobs):
-    with pytest.raises(ZeroDivisionError):
-        list(run_each(halved, [4, 1000], jobs))
+    with pytest.raises(ZeroDivisionError), Pool(jobs) as pool:
+        list(pool.run_each(halved, [4, 1000]))
 
 
 def quotient(number: int, by: int) -> float:
@@ -39,6 +40,7 @@ def quotient(number: int, by: int) -> float:
 
 @pytest.mark.parametrize("jobs", (1, 2))
 def test_what_is_needed_of_every_item_comes_in_their_order_or_not_at_all(jobs):
-    assert run_all(quotient, [(6, 2), (4, 1), (9, 3)], jobs) == [3.0, 4.0, 3.0]
-    with pytest.raises(EvaluationError, match="-1 is negative"):
-        run_all(quotient, [(6, 2), (-1, 1)], jobs)
+    with Pool(jobs) as pool:
+        assert pool.run_all(quotient, [(6, 2), (4, 1), (9, 3)]) == [3.0, 4.0, 3.0]
+        with pytest.raises(EvaluationError, match="-1 is negative"):
+            pool.run_all(quotient, [(6, 2), (-1, 1)])

@@ -5,6 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from nav_msgs.msg import Odometry
+from rclpy.serialization import deserialize_message
 
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.results.events import EventKind
@@ -46,7 +48,8 @@ def played(bag):
     graph = LiveGraph(bag, {"default": TrackerConfig()}, context)
     try:
         graph.run(lambda share: None)
-        return graph.result("default"), list(graph.collectors["default"].messages[PERSON])
+        person = graph.collectors["default"].messages[PERSON]
+        return graph.result("default"), [deserialize_message(data, Odometry) for data in person]
     finally:
         graph.close()
         rclpy.try_shutdown(context=context)

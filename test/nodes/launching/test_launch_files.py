@@ -6,6 +6,7 @@ The stand-in has the classes and keywords of `launch` that the files use, and re
 import importlib.util
 import re
 import sys
+import tempfile
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -48,8 +49,9 @@ def stand_in(monkeypatch):
 
 
 @pytest.fixture
-def launch(monkeypatch):
+def launch(monkeypatch, tmp_path):
     """Return the kinds of actions; what was imported with them is forgotten afterwards."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     yield stand_in(monkeypatch)
     sys.modules.pop(MODULE, None)
 
@@ -94,6 +96,19 @@ def test_arguments_become_nodes_with_parameter_files(launch):
     assert content["/anna/fusion"]["ros__parameters"]["method"] == "idc"
     (record,) = [a for a in actions if isinstance(a, launch.ExecuteProcess)]
     assert record.keywords["cmd"][:3] == ["ros2", "bag", "record"]
+
+
+def test_parameter_files_go_with_the_process_of_the_launch(launch, tmp_path, monkeypatch):
+    at_exit = []
+    monkeypatch.setattr("atexit.register", lambda *call, **how: at_exit.append((call, how)))
+    actions = run(launch, "dualfoot", method="idc", bag="walk")
+    written = {Path(path) for each in actions for path in each.keywords["parameters"]}
+    assert (
+        set(tmp_path.iterdir()) == {path for path in written if path.parent == tmp_path} != set()
+    )
+    for (function, *rest), how in at_exit:
+        function(*rest, **how)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_namespace_around_the_launch_file_reaches_nodes_and_parameters(launch):

@@ -6,8 +6,8 @@ from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry, Path
 from rclpy.serialization import deserialize_message, serialize_message
 
-from dualfoot_ros.nodes.ros.cdr_imu import ImuBytes
-from dualfoot_ros.nodes.ros.cdr_odometry import OdometryBytes
+from dualfoot_ros.nodes.ros.cdr_imu import FilledImu, ImuBytes, encoded
+from dualfoot_ros.nodes.ros.cdr_odometry import OdometryBytes, OdometryNumbers
 from dualfoot_ros.nodes.ros.cdr_path import PathBytes, PathPose
 from dualfoot_ros.nodes.ros.messages import new_imu, set_imu_values, set_pose, set_time
 
@@ -45,6 +45,14 @@ def test_odometry_is_the_message_of_rclpy(frame, child):
         linear.x, linear.y, linear.z, angular.x, angular.y, angular.z = rest.tolist()
         message.pose.covariance, message.twist.covariance = pose.ravel(), twist.ravel()
         assert_same(made.data(), message)
+        read = OdometryNumbers([serialize_message(message), made.data()])
+        assert read.stamp_ns.tolist() == [STAMP + seed] * 2
+        for k in range(2):
+            assert read.position[k].tolist() == position.tolist()
+            assert read.quaternion[k].tolist() == quaternion.tolist()
+            assert read.linear[k].tolist() == rest[:3].tolist()
+            assert read.pose_covariance[k].tolist() == pose.tolist()
+            assert read.twist_covariance[k].tolist() == twist.tolist()
 
 
 def path_message(frame, poses):
@@ -111,3 +119,43 @@ def test_a_sample_is_read_from_bytes_as_from_the_message_of_rclpy(frame, other_o
     np.testing.assert_array_equal(
         read.message.linear_acceleration_covariance, message.linear_acceleration_covariance
     )
+
+
+def sensed(frame, seed):
+    """Return a message with everything in it."""
+    message = new_imu(frame)
+    set_time(message.header.stamp, STAMP + seed)
+    turn = message.orientation
+    turn.x, turn.y, turn.z, turn.w = numbers(4, seed).tolist()
+    message.orientation_covariance = numbers(9, seed + 1)
+    message.angular_velocity_covariance = numbers(9, seed + 2)
+    message.linear_acceleration_covariance = numbers(9, seed + 3)
+    set_imu_values(message, numbers(6, seed + 4))
+    return message
+
+
+@pytest.mark.parametrize("frame", ["", "i", "imu1", "left_imu", "längs/imu"])
+def test_a_message_is_encoded_as_by_rclpy(frame):
+    assert_same(encoded(sensed(frame, 1)), sensed(frame, 1))
+
+
+@pytest.mark.parametrize("frames", [("left_imu",) * 3, ("", "i", "längs/imu"), ("imu1", "", "x")])
+def test_a_filled_sample_has_frame_and_covariances_of_the_newest_that_it_follows(frames):
+    filled = FilledImu("before")
+    assert_same(filled.data(STAMP, np.zeros(6)), filled_message(new_imu("before"), np.zeros(6)))
+    for seed, frame in enumerate(frames):
+        came = sensed(frame, seed)
+        filled.follow(ImuBytes(serialize_message(came)))
+        for k in range(2):
+            values = numbers(6, k)
+            assert_same(filled.data(STAMP, values), filled_message(came, values))
+
+
+def filled_message(came, values):
+    """Return what a message without orientation takes of one that came, as an object."""
+    message = new_imu(came.header.frame_id)
+    set_time(message.header.stamp, STAMP)
+    message.angular_velocity_covariance = came.angular_velocity_covariance
+    message.linear_acceleration_covariance = came.linear_acceleration_covariance
+    set_imu_values(message, values)
+    return message

@@ -1,5 +1,6 @@
 """``dualfoot calibrate`` as a user meets it."""
 
+import errno
 import json
 import os
 
@@ -259,6 +260,19 @@ def test_no_other_file_is_overwritten(six, bags, tmp_path, capsys):
     assert main(["calibrate", "spacing", bags["eight"], "-o", str(mine)]) == 2
     assert "exists already" in capsys.readouterr().err
     assert mine.read_text() == "mine: true\n"
+
+
+def test_without_its_figure_a_calibration_is_not_written(six, tmp_path, capsys, monkeypatch):
+    def full(fits, path):
+        path.write_text("half a fig")
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("dualfoot_ros.calibration.plots.draw_allan", full)
+    output = tmp_path / "out"
+    output.mkdir()
+    assert main(["calibrate", "gyro", six[0], "-o", str(output / "gyro.yaml")]) == 2
+    assert "_allan.png': it cannot be written: No space left on device" in capsys.readouterr().err
+    assert list(output.iterdir()) == []
 
 
 def test_a_stuck_sensor_is_refused_for_what_it_spoils_and_a_warning_for_the_rest(tmp_path, capsys):

@@ -10,7 +10,7 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-from ...recording import METADATA, check_target, new_bag, new_directory
+from ...recording import METADATA, RecordingError, new_bag, new_directory
 
 
 class RecorderNode(Node):
@@ -29,7 +29,8 @@ class RecorderNode(Node):
             When it cannot be written.
         """
         super().__init__("recorder", **options)
-        check_target(path, overwrite=False, marker=METADATA)
+        if path.exists():
+            raise RecordingError(f"'{path}' exists already; choose another name to record to")
         self.recorded = 0
         self._stack = ExitStack()
         folder = self._stack.enter_context(new_directory(path, overwrite=False, marker=METADATA))

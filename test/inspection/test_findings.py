@@ -39,7 +39,11 @@ def with_nan(series):
 
 BAD = [
     (Recording(), "missing", "no samples of either foot"),
-    (Recording(left=moving(1)), "missing", "no samples of the right foot.*the left foot is"),
+    (
+        Recording(left=moving(1)),
+        "missing",
+        "no samples of the right foot, and both feet",
+    ),
     (of(right=moving(2)[:0]), "missing", "no samples of the right foot"),
     (of(left=moving(1)[:1]), "empty", "left foot: 1 of 1 samples can be used"),
     (of(left=with_nan(moving(1))), "not_finite", "left foot: 1 of 1200 samples .* sample 700"),

@@ -28,8 +28,8 @@ STEADY = 0.8
 LEAST_LEAD = 2  # strides of one foot while the other one stands: nobody makes them
 LEAST_STARTS = 2  # starts and stops that agree
 APART_REMEDY = (
-    "find the offset with 'dualfoot sync BAG -o ALIGNED', or give it on import (--right-offset); "
-    "a heavy limp looks alike"
+    "find the offset with 'dualfoot sync BAG -o ALIGNED', or give it on import (--right-offset) "
+    "or live (stamping.right_offset); a heavy limp looks alike"
 )
 
 

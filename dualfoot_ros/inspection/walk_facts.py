@@ -110,7 +110,7 @@ def _steps(foot: FootTrajectory, other: FootTrajectory) -> StepFacts:
     strides = lengths >= LEAST_STRIDE_M
     longest = int(np.argmax(lengths)) if strides.any() else -1
     median_m = median(lengths[strides]) if strides.any() else float("nan")
-    swings, holes = _swings_s(foot, bounds), _holes_s(foot, bounds)
+    swings, holes = _swings_s(foot, bounds), longest_holes_s(foot, bounds)
     gap = int(np.argmax(swings)) if len(swings) else -1
     return StepFacts(
         strides=int(strides.sum()),
@@ -165,7 +165,7 @@ def _swings_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:
     return swings
 
 
-def _holes_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:
+def longest_holes_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:
     """Return the longest time without a sample, s, for each stance and the step after it.
 
     The step before it counts too: a foot that was away is put right in its first stance.

@@ -125,11 +125,14 @@ def test_what_is_wrong_with_a_bag_is_said_once_below_the_tables(bags, tmp_path, 
     good = read_bag(bags[0])
     left = replace(good.left, angular_rate=-good.left.angular_rate)
     bad = str(write_bag(tmp_path / "negated", replace(good, left=left)))
-    assert main(["compare", bags[0], bad, "--methods", "zupt,idc", "--jobs", "1"]) == 0
+    command = ["compare", bags[0], bad, "--methods", "zupt,idc", "--jobs", "1"]
+    assert main([*command, "-o", str(tmp_path / "report")]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert said.count("warning: left foot: the angular rate has the wrong sign") == 1
     assert "negated: warning: left foot" in said.replace("- ", "-")
     assert f"{bags[0]}: warning" not in said
+    page = (tmp_path / "report" / "report.html").read_text()
+    assert page.count("negated: left foot: the angular rate has the wrong sign") == 1
 
 
 def test_a_calibration_corrects_every_bag(bags, tmp_path, capsys):

@@ -105,9 +105,11 @@ def full_disk():
     resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
 
-@pytest.mark.parametrize(
-    "write", [large, large_files, lambda path: write_text(path, 10_000 * "a")], ids=str
-)
+def large_text(path):
+    write_text(path, 10_000 * "a")
+
+
+@pytest.mark.parametrize("write", [large, large_files, large_text])
 def test_a_disk_that_is_full_is_said_of_the_output(write, tmp_path, full_disk):
     target = tmp_path / "x"
     with pytest.raises(OSError, match="it cannot be written: File too large") as found:

@@ -60,6 +60,11 @@ def jitter(series: ImuSeries, rng: np.random.Generator) -> ImuSeries:
     return replace(series, stamp_ns=np.maximum.accumulate(series.stamp_ns + late))
 
 
+def ahead(series: ImuSeries, rng: np.random.Generator) -> ImuSeries:
+    """Stamp by a clock that is 0.3 s ahead."""
+    return replace(series, stamp_ns=series.stamp_ns + 300_000_000)
+
+
 def lose(series: ImuSeries, rng: np.random.Generator) -> ImuSeries:
     """Lose 5 % of the samples, anywhere."""
     return series[rng.uniform(size=len(series)) > 0.05]
@@ -105,6 +110,7 @@ FAULTS = (
     Fault("axis of the gyro stuck for 3 s", of_left(stick), (K.STUCK,)),
     Fault("gyro clipped at 70 %", of_left(clip), (K.CLIPPING,)),
     Fault("stamps 0 to 12 ms late", of_left(jitter), (K.JITTER,)),
+    Fault("clock 0.3 s ahead", of_left(ahead), (K.CLOCKS_APART,)),
     Fault("5 % of the samples lost", of_left(lose), (K.MISSING_SAMPLES,)),
     Fault("shaken for 4 s", of_left(shake), (K.MISSED_STANCES, K.LONG_STRIDE, K.NO_STANCE)),
     Fault("one sensor for both feet", twice, (K.SAME_SAMPLES,)),

@@ -30,6 +30,8 @@ FORMAT, VERSION = "dualfoot_bias_memory", 1
 KEPT = 20  # newest stands that are kept for each foot
 FROM_WALK_TO_WALK = 2e-3  # rad/s, scatter of a bias that only one stand has told
 LARGEST = 0.5  # rad/s
+SAME = 0.1  # deviations, from a stand to the same one with other parameters of the filter
+FIRST_DATE = "2000"  # earlier ones count the seconds of a device
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,11 @@ class RememberedStand:
     gyro_bias: tuple[float, float, float]
     std: float
     temperature: float | None = None
+
+    def is_same(self, other: RememberedStand) -> bool:
+        """Return whether the other is this stand, told once more."""
+        apart = max(abs(a - b) for a, b in zip(self.gyro_bias, other.gyro_bias, strict=True))
+        return self.date == other.date and apart < SAME * self.std
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as it stands in the file."""
@@ -93,9 +100,24 @@ class BiasMemory:
         """Return what is known of the gyro bias of each foot before the next walk."""
         return {foot: prior_of(stands) for foot, stands in self.stands.items() if stands}
 
+    def without(self, begin_ns: int, end_ns: int) -> BiasMemory:
+        """Return the memory without stands in that time, which are those of the walk itself.
+
+        Stamps that are no date of a calendar tell nothing, and nothing is left out.
+        """
+        begin, end = _date(begin_ns), _date(end_ns)
+        if begin < FIRST_DATE:
+            return self
+        kept = {
+            foot: [each for each in stands if not begin <= each.date <= end]
+            for foot, stands in self.stands.items()
+        }
+        return BiasMemory(kept)
+
     def remember(self, foot: str, stand: RememberedStand) -> None:
-        """Add a stand of ``foot``; the oldest are forgotten."""
-        self.stands[foot] = [*self.stands[foot], stand][-KEPT:]
+        """Add a stand of ``foot``, in place of itself where it is known; the oldest go."""
+        others = [each for each in self.stands[foot] if not each.is_same(stand)]
+        self.stands[foot] = [*others, stand][-KEPT:]
 
 
 def prior_of(stands: Sequence[RememberedStand]) -> BiasPrior:
@@ -138,9 +160,13 @@ def stands_in(events: Iterable[Event], found: dict[str, RememberedStand]) -> Non
 
 
 def _stand(stamp_ns: int, bias: Sequence[float], std: float) -> RememberedStand:
-    date = datetime.fromtimestamp(stamp_ns * 1e-9, UTC).isoformat(timespec="seconds")
     x, y, z = (float(value) for value in bias)
-    return RememberedStand(date, (x, y, z), float(std))
+    return RememberedStand(_date(stamp_ns), (x, y, z), float(std))
+
+
+def _date(stamp_ns: int) -> str:
+    """Return a stamp as a date to the second; dates sort as they follow each other."""
+    return datetime.fromtimestamp(stamp_ns * 1e-9, UTC).isoformat(timespec="seconds")
 
 
 def _stands(content: Any) -> dict[str, list[RememberedStand]]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..core import FEET, FORWARD_LEFT_UP, CalibrationError, ImuSeries
 from ..recording import Topics, find_topics, read_bag
-from ..recording.importers import ImportOptions, is_table, read_sensors
+from ..recording.importers import ImportOptions, check_as_it_is, is_table, read_sensors
 from .file import ANY
 
 Named = tuple[str, ImuSeries]
@@ -57,10 +57,7 @@ def _load(
         sensors = read_sensors(path, tables, foot or "")
         named = {(foot or ANY) if name == "" else name: series for name, series in sensors.items()}
         return [item for item in named.items() if foot in (None, item[0])]
-    if tables.axes != FORWARD_LEFT_UP:
-        raise CalibrationError(
-            f"'{path}' is a bag, whose axes are forward-left-up already; --axes is for exports"
-        )
+    check_as_it_is(tables, path)
     recording = read_bag(path, topics=topics or find_topics(path).topics)
     feet = FEET if foot is None else (foot,)
     held = [(name, series) for name in feet if (series := recording.imu(name)) is not None]

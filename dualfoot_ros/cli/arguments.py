@@ -10,7 +10,7 @@ from ..core import FEET, ConfigError, RecordingError
 from ..inspection import require_usable
 from ..recording import METADATA, STORAGES, Recording, Topics, find_topics, read_bag
 from .printing import print_note, progress
-from .table_options import add_intake_arguments, import_in_memory
+from .table_options import add_intake_arguments, import_in_memory, refuse_intake_options
 
 if TYPE_CHECKING:
     from ..core import TrackerConfig
@@ -190,7 +190,9 @@ def is_bag(args: argparse.Namespace) -> bool:
         When there is neither a bag nor a file for each foot.
     """
     if args.bag is None and len(_files(args)) != len(FEET):
-        raise RecordingError("no recording given; allowed is BAG, or --left FILE --right FILE")
+        missing = [f"--{foot} FILE" for foot in FEET if getattr(args, foot) is None]
+        given = f"{missing[0]} is missing" if len(missing) == 1 else "no recording given"
+        raise RecordingError(f"{given}; allowed is BAG, or --left FILE --right FILE")
     return args.bag is not None and not _files(args) and not _is_export(Path(args.bag))
 
 
@@ -208,8 +210,10 @@ def load_bag(path: str, args: argparse.Namespace) -> Recording:
 
     Of a verb with :func:`add_recording_argument`, files of sensors are imported in memory.
     """
-    if hasattr(args, "left") and not is_bag(args):
-        return import_in_memory(args.bag, args)
+    if hasattr(args, "left"):
+        if not is_bag(args):
+            return import_in_memory(args.bag, args)
+        refuse_intake_options(path, args)
     topics = read_topics(path, args)
     with progress(f"reading {path}") as update:
         return read_bag(path, topics=topics, progress=update)

@@ -108,14 +108,16 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _notes(entries: Sequence[Entry]) -> list[str]:
-    """Return the sentences on the configurations, each with the cases that it is about."""
+    """Return the sentences on configurations and bags, each with the cases or the bag."""
     from ..evaluation import config_notes
 
+    of_bags = [f"{entry.bag}: warning: {each}" for entry in entries for each in entry.warnings]
     cases: dict[str, list[str]] = {}
     for case in {entry.case.label: entry.case for entry in entries}.values():
         for note in config_notes(case.config):
             cases.setdefault(note, []).append(case.label)
-    return [f"{', '.join(labels)}: {note}" for note, labels in cases.items()]
+    of_cases = [f"{', '.join(labels)}: {note}" for note, labels in cases.items()]
+    return [*of_cases, *dict.fromkeys(of_bags)]
 
 
 def _cases(args: argparse.Namespace) -> list[Case]:

@@ -30,7 +30,7 @@ from .self_calibration import self_calibration
 if TYPE_CHECKING:
     from ..calibration import BiasMemory
     from ..evaluation import Evaluation, RunOptions
-    from ..recording import Correction
+    from ..recording import Correction, Recording
 
 HELP = "run one method on a bag and evaluate the tracks of both feet"
 EXAMPLES = """\
@@ -130,6 +130,8 @@ def run(args: argparse.Namespace) -> int:
     notes: tuple[str, ...] = ()
     if args.self_calibrate:
         calibration, notes = self_calibration(args, recordings[0], config, calibration)
+    if args.bias_memory is not None:
+        memory = memory.without(*_span(recordings[0]))
     options = replace(_options(args, calibration), priors=memory.priors())
     result = evaluation.run(recordings.pop(), config, options)  # its samples are needed no more
     result = replace(result, notes=(*notes, *result.notes))
@@ -145,6 +147,13 @@ def run(args: argparse.Namespace) -> int:
     _remember(args.bias_memory, memory, result)
     _print(args, result, {**metrics, "files": [str(path) for path in paths]}, paths)
     return 0
+
+
+def _span(recording: Recording) -> tuple[int, int]:
+    """Return the first and the last stamp of a recording, ns; 0 without samples."""
+    feet = [imu for imu in (recording.left, recording.right) if imu is not None and len(imu)]
+    begin = min((int(imu.stamp_ns.min()) for imu in feet), default=0)
+    return begin, max((int(imu.stamp_ns.max()) for imu in feet), default=0)
 
 
 def _remember(path: Path | None, memory: BiasMemory, result: Evaluation) -> None:

@@ -18,15 +18,13 @@ from ..recording.importers import (
     read_pressure,
 )
 from .arguments import add_bag_output_argument, add_storage_arguments, save_bag
-from .printing import print_warning
+from .printing import assumption_lines, doubts, print_warning
 from .table_options import (
     CAPTURES,
     add_axes_argument,
     add_capture_arguments,
     add_table_arguments,
     add_unit_arguments,
-    assumption_lines,
-    doubts,
     given_layout,
     known_layout,
 )

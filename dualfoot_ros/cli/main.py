@@ -10,8 +10,8 @@ import gc
 import importlib
 import os
 import sys
-from collections.abc import Sequence
-from typing import Protocol, cast
+from collections.abc import Iterable, Sequence
+from typing import NoReturn, Protocol, cast
 
 from .. import __version__
 from .freed_memory import keep_freed_memory
@@ -43,6 +43,19 @@ examples:
   dualfoot live --open                      a page that shows what the nodes publish now
   dualfoot VERB --help                      the options of one verb, with examples
 """
+
+
+class VerbParser(argparse.ArgumentParser):
+    """Parser that refuses arguments in one sentence, without the twenty lines of the usage."""
+
+    def error(self, message: str) -> NoReturn:
+        """End the process with the sentence and what helps."""
+        _, _, rest = message.partition("unrecognized arguments: ")
+        hint = _near(rest.split("=")[0].split(" ")[0], self._option_string_actions)
+        self.exit(
+            EXIT_BAD_INPUT,
+            f"{self.prog}: error: {message}{hint or ';'} '{self.prog} --help' lists the options\n",
+        )
 
 
 class Verb(Protocol):
@@ -88,7 +101,7 @@ def load(name: str) -> Verb:
 def parser_of(name: str) -> argparse.ArgumentParser:
     """Return the argument parser of the verb ``name``."""
     verb = load(name)
-    parser = argparse.ArgumentParser(
+    parser = VerbParser(
         prog=f"dualfoot {name}",
         description=verb.HELP,
         epilog=verb.EXAMPLES,
@@ -184,10 +197,14 @@ def _overview() -> str:
 
 
 def _unknown(name: str) -> int:
+    verbs, near = ", ".join(VERBS), _near(name, VERBS)
+    print(f"dualfoot: error: unknown verb '{name}'; allowed: {verbs}{near}", file=sys.stderr)
+    return EXIT_BAD_INPUT
+
+
+def _near(word: str, known: Iterable[str]) -> str:
+    """Return a question about the known word that ``word`` may mean; none if there is no such."""
     import difflib
 
-    near = difflib.get_close_matches(name, VERBS, n=1)
-    hint = f"; did you mean '{near[0]}'?" if near else ""
-    verbs = ", ".join(VERBS)
-    print(f"dualfoot: error: unknown verb '{name}'; allowed: {verbs}{hint}", file=sys.stderr)
-    return EXIT_BAD_INPUT
+    near = difflib.get_close_matches(word, known, n=1)
+    return f"; did you mean '{near[0]}'?" if near else ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,8 +12,12 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ..evaluation.batch import Failure
+    from ..recording import Recording
+    from ..recording.importers.tables import Assumption
 
 WIDTH = 120
+HEADINGS = ("foot", "what", "taken as", "by")  # of what was assumed about files of sensors
+MARK = "!"  # before what the user should look at
 
 
 def print_json(document: Mapping[str, Any]) -> None:
@@ -96,3 +100,41 @@ def status(label: str) -> Iterator[None]:
 def _on_terminal() -> bool:
     """Return whether standard error is a terminal; where it is not, rich need not be loaded."""
     return sys.stderr.isatty()
+
+
+def doubts(recording: Recording) -> list[str]:
+    """Return a sentence for each assumption that the user should look at."""
+    from ..recording.importers.tables import from_note
+
+    found = from_note(recording.notes.get("assumptions", "[]"))
+    return [
+        f"{one.foot + ' foot: ' if one.foot else ''}{one.subject}: {one.value}"
+        for one in found
+        if one.doubtful
+    ]
+
+
+def assumption_lines(recording: Recording) -> list[str]:
+    """Return what was assumed about the files of a recording, as the lines of a table."""
+    from ..recording.importers.tables import from_note
+
+    found = from_note(recording.notes.get("assumptions", "[]"))
+    if not found:
+        return []
+    rows = [HEADINGS, *_merged(found)]
+    widths = [max(len(row[k]) for row in rows) for k in range(len(HEADINGS))]
+    return [_line(row, widths) for row in rows]
+
+
+def _line(row: Sequence[str], widths: Sequence[int]) -> str:
+    cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+    return "  ".join(cells).rstrip()
+
+
+def _merged(found: Iterable[Assumption]) -> list[tuple[str, ...]]:
+    """Return one row for what is the same of both feet."""
+    rows: dict[tuple[str, ...], list[str]] = {}
+    for one in found:
+        mark = f"{MARK} " if one.doubtful else ""
+        rows.setdefault((one.subject, f"{mark}{one.value}", str(one.origin)), []).append(one.foot)
+    return [("both" if len(set(feet)) > 1 else feet[0], *row) for row, feet in rows.items()]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +11,8 @@ from ..core import FEET, FORCE_UNITS, FORWARD_LEFT_UP, RATE_UNITS, RecordingErro
 
 if TYPE_CHECKING:
     from ..recording import Recording
-    from ..recording.importers.tables import Assumption, Layout
+    from ..recording.importers import ImportOptions
+    from ..recording.importers.tables import Layout
 
     Arguments = argparse._ActionsContainer  # noqa: SLF001  (a parser or a group; it has no other name)
 
@@ -20,8 +21,13 @@ CAPTURES = "bytes captured from devices (format capture)"
 TIME_UNITS = ("s", "ms", "100us", "us", "ns", "samples")
 DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t", "bar": "|", "space": " "}
 DECIMALS = {"point": ".", "comma": ","}
-HEADINGS = ("foot", "what", "taken as", "by")
-MARK = "!"  # before what the user should look at
+INTAKE_DEFAULTS: dict[str, object] = {
+    "axes": FORWARD_LEFT_UP,
+    "capture": "",
+    "capture_rate": 0.0,
+    **dict.fromkeys(("force_unit", "rate_unit", "columns", "time_unit", "rate", "delimiter")),
+    **dict.fromkeys(("decimal", "skip", "left_device", "right_device", "layout")),
+}
 
 
 def add_table_arguments(parser: argparse.ArgumentParser) -> None:
@@ -111,6 +117,21 @@ def add_intake_arguments(parser: argparse.ArgumentParser) -> None:
     add_capture_arguments(group)
 
 
+def refuse_intake_options(bag: str, args: argparse.Namespace) -> None:
+    """Refuse the options of files of sensors where ``bag`` is one.
+
+    Raises
+    ------
+    RecordingError
+        When one is given; names it.
+    """
+    if all(getattr(args, name) == default for name, default in INTAKE_DEFAULTS.items()):
+        return  # without an import of the many modules that read files of sensors
+    from ..recording.importers import check_as_it_is
+
+    check_as_it_is(replace(_intake_options(args), left_topic=None, right_topic=None), Path(bag))
+
+
 def add_capture_arguments(group: Arguments) -> None:
     """Add ``--capture`` and ``--capture-rate``."""
     group.add_argument(
@@ -181,14 +202,24 @@ def import_in_memory(path: str | None, args: argparse.Namespace) -> Recording:
     RecordingError
         When they are no such files, or their columns, time or units are not known.
     """
-    from ..recording.importers import ImportOptions, import_recording
-    from .printing import print_note
+    from ..recording.importers import import_recording
+    from .printing import assumption_lines, print_note
 
-    options = ImportOptions(
-        sources=() if path is None else (Path(path),),
-        left=args.left,
-        right=args.right,
+    sources = () if path is None else (Path(path),)
+    options = replace(_intake_options(args), sources=sources, left=args.left, right=args.right)
+    recording = import_recording(options)
+    for line in assumption_lines(recording):
+        print_note(line)
+    return recording
+
+
+def _intake_options(args: argparse.Namespace) -> ImportOptions:
+    from ..recording.importers import ImportOptions
+
+    return ImportOptions(
         axes=args.axes,
+        left_topic=args.left_topic,
+        right_topic=args.right_topic,
         force_unit=args.force_unit,
         rate_unit=args.rate_unit,
         layout=given_layout(args),
@@ -198,45 +229,3 @@ def import_in_memory(path: str | None, args: argparse.Namespace) -> Recording:
         capture=args.capture,
         capture_rate=args.capture_rate,
     )
-    recording = import_recording(options)
-    for line in assumption_lines(recording):
-        print_note(line)
-    return recording
-
-
-def doubts(recording: Recording) -> list[str]:
-    """Return a sentence for each assumption that the user should look at."""
-    from ..recording.importers.tables import from_note
-
-    found = from_note(recording.notes.get("assumptions", "[]"))
-    return [
-        f"{one.foot + ' foot: ' if one.foot else ''}{one.subject}: {one.value}"
-        for one in found
-        if one.doubtful
-    ]
-
-
-def assumption_lines(recording: Recording) -> list[str]:
-    """Return what was assumed about the files of a recording, as the lines of a table."""
-    from ..recording.importers.tables import from_note
-
-    found = from_note(recording.notes.get("assumptions", "[]"))
-    if not found:
-        return []
-    rows = [HEADINGS, *_merged(found)]
-    widths = [max(len(row[k]) for row in rows) for k in range(len(HEADINGS))]
-    return [_line(row, widths) for row in rows]
-
-
-def _line(row: Sequence[str], widths: Sequence[int]) -> str:
-    cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
-    return "  ".join(cells).rstrip()
-
-
-def _merged(found: Iterable[Assumption]) -> list[tuple[str, ...]]:
-    """Return one row for what is the same of both feet."""
-    rows: dict[tuple[str, ...], list[str]] = {}
-    for one in found:
-        mark = f"{MARK} " if one.doubtful else ""
-        rows.setdefault((one.subject, f"{mark}{one.value}", str(one.origin)), []).append(one.foot)
-    return [("both" if len(set(feet)) > 1 else feet[0], *row) for row, feet in rows.items()]

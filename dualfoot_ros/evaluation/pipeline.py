@@ -121,7 +121,8 @@ def run_checked(
 class _Walk:
     """What is taken of a recording: its samples in pairs, and what is known of the walk.
 
-    ``paired_s`` is the CPU time of pairing, s; ``on_both`` says that the feet are to be compared.
+    ``paired_s`` is the CPU time of pairing, s; ``on_both`` says that the feet are to be compared;
+    ``notes`` say what is known and not used.
     """
 
     samples: PairedSamples | None
@@ -129,6 +130,7 @@ class _Walk:
     reference: Reference | None
     on_both: bool
     paired_s: float
+    notes: tuple[str, ...]
 
     @classmethod
     def of(cls, recording: Recording, config: TrackerConfig, options: RunOptions) -> _Walk:
@@ -138,7 +140,8 @@ class _Walk:
         samples = pair_samples(recording)
         paired_s = time.process_time() - begin
         on_both = options.check_feet and _has_both_feet(recording, config)
-        return cls(samples, truth_of(recording), recording.reference, on_both, paired_s)
+        truth, notes = truth_of(recording), tuple(_notes_on_truth(recording))
+        return cls(samples, truth, recording.reference, on_both, paired_s, notes)
 
     def take_samples(self) -> PairedSamples:
         """Return the samples, and keep them no longer."""
@@ -169,6 +172,7 @@ def _run_walk(
         evaluation,
         findings=(*findings, *of_walk),
         notes=(
+            *walk.notes,
             *evaluation.notes,
             *config_notes(config),
             *(f"warning: {each.sentence}" for each in (*findings, *of_walk)),
@@ -220,6 +224,13 @@ def _prepare(recording: Recording, options: RunOptions) -> Recording:
     if options.reference is None:
         return recording
     return replace(recording, reference=options.reference)
+
+
+def _notes_on_truth(recording: Recording) -> Iterator[str]:
+    """Yield a sentence when there is a truth of one foot, which gives no errors."""
+    known = [foot for foot in FEET if getattr(recording, f"{foot}_truth") is not None]
+    if len(known) == 1:
+        yield f"no errors against the truth: they take both feet, here is the {known[0]} one only"
 
 
 def _unconstrained_findings(samples: PairedSamples, config: TrackerConfig) -> Iterator[Finding]:

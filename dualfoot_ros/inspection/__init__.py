@@ -30,11 +30,12 @@ from .quality import Quality, quality_of
 from .stance_statistics import StanceStatistics, stance_statistics, unconstrained_config
 from .stretch import SIGNALS_S, WALK_S, Stretch, signal_findings, track_findings
 from .stuck_values import AXES, TRIADS, Channel, Held, Stuck, held_at_rest
-from .walk_facts import StepFacts, WalkFacts, walk_facts
+from .walk_facts import LEAST_HOLE_S, StepFacts, WalkFacts, longest_holes_s, walk_facts
 
 __all__ = [
     "AXES",
     "GRAVITY_ERROR",
+    "LEAST_HOLE_S",
     "SIGNALS_S",
     "STUCK_SHARE",
     "TRIADS",
@@ -67,6 +68,7 @@ __all__ = [
     "findings_of",
     "gyro_agreement",
     "held_at_rest",
+    "longest_holes_s",
     "lost_foot_findings",
     "lost_heading",
     "mend_clocks",

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core import FloatArray, ImuSeries, IntArray, quantile, row_lengths
+from ..recording import evidence_of
 from ..timing import AlignerConfig, clean, finite_samples
 from .gyro_agreement import GyroAgreement, gyro_agreement
 from .overlaid import Overlaid, find_overlaid
@@ -18,6 +20,15 @@ CLIP_RATE = 4.0  # rad/s and m/s^2: below this an extreme that repeats is no cli
 CLIP_FORCE = 15.0
 CLIP_LEAST = 3  # samples at an extreme, on end or in different peaks; two may be one peak's top
 STEP_IS_LONG = 1.6  # times the usual interval: a sample is missing
+
+
+class GravityFrom(StrEnum):
+    """Where the specific force was taken for gravity; the values are the words for it."""
+
+    STAND = "at rest"
+    STANCES = "in its quiet moments"
+    ALL = "in the median"
+    """Of a foot that is never quiet: 9.8 to 22 m/s^2, by the speed of the walk."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +48,8 @@ class Quality:
     missing : samples that intervals shorter than a gap leave room for
     gaps, longest_gap_s : intervals longer than ``Sync.max_gap``, and the longest interval
     stand : the first standstill, or None
-    median_force, high_rate : median of |specific force|; 98 % quantile of |angular rate|
+    gravity, gravity_from : |specific force|, and where it was taken
+    high_rate : 98 % quantile of |angular rate|
     peak_force, peak_rate : greatest absolute value of an axis
     clipped_force, clipped_rate : samples at the end of the range
     overlaid : where samples of two times lie between each other, or None
@@ -60,7 +72,8 @@ class Quality:
     gaps: int
     longest_gap_s: float
     stand: Stand | None
-    median_force: float
+    gravity: float
+    gravity_from: GravityFrom
     high_rate: float
     peak_force: float
     peak_rate: float
@@ -81,7 +94,8 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
     config = config or AlignerConfig()
     good, counters, restart_at = clean(series, config)
     bad = np.flatnonzero(~finite_samples(series))
-    rhythm = _rhythm(good.stamp_ns, config)
+    rhythm, stand = _rhythm(good.stamp_ns, config), first_stand(good)
+    gravity, gravity_from = _gravity(good, stand)
     some = len(good) > 0
     return Quality(
         samples=len(series),
@@ -98,8 +112,9 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
         missing=rhythm.missing,
         gaps=counters["gap"],
         longest_gap_s=rhythm.longest_gap_s,
-        stand=first_stand(good),
-        median_force=_quantile(good.specific_force, 0.5),
+        stand=stand,
+        gravity=gravity,
+        gravity_from=gravity_from,
         high_rate=_quantile(good.angular_rate, 0.98),
         peak_force=float(np.abs(good.specific_force).max(initial=0.0)),
         peak_rate=float(np.abs(good.angular_rate).max(initial=0.0)),
@@ -109,6 +124,13 @@ def quality_of(series: ImuSeries, config: AlignerConfig | None = None) -> Qualit
         stuck=find_stuck(good),
         gyro=gyro_agreement(good),
     )
+
+
+def _gravity(series: ImuSeries, stand: Stand | None) -> tuple[float, GravityFrom]:
+    if stand is not None:
+        return stand.gravity, GravityFrom.STAND
+    evidence = evidence_of(series)
+    return evidence.gravity, GravityFrom.STANCES if evidence.quiet else GravityFrom.ALL
 
 
 class _Rhythm(NamedTuple):

@@ -26,6 +26,7 @@ LEAST_STRIDES = 6  # of a foot, for a course
 LEAST_TURN_STD = 0.3  # rad, of the course, to compare turns
 STEP_STANCE_S = 1.2  # a longer stance is no step
 LEAST_HOLE_S = 0.1  # without a sample; a stance may be in it
+HOLE_EPOCHS = 1.5  # times the mean time between epochs: at 10 Hz 0.1 s is no hole
 
 
 class StepFacts(NamedTuple):
@@ -107,7 +108,7 @@ def _steps(foot: FootTrajectory, other: FootTrajectory) -> StepFacts:
     strides = lengths >= LEAST_STRIDE_M
     longest = int(np.argmax(lengths)) if strides.any() else -1
     median_m = median(lengths[strides]) if strides.any() else float("nan")
-    swings, holes = _swings_s(foot, bounds), _holes_s(foot, bounds)
+    swings, holes = _swings_s(foot, bounds), longest_holes_s(foot, bounds)
     gap = int(np.argmax(swings)) if len(swings) else -1
     return StepFacts(
         strides=int(strides.sum()),
@@ -162,7 +163,7 @@ def _swings_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:
     return swings
 
 
-def _holes_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:
+def longest_holes_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:
     """Return the longest time without a sample, s, for each stance and the step after it.
 
     The step before it counts too: a foot that was away is put right in its first stance.
@@ -171,11 +172,12 @@ def _holes_s(foot: FootTrajectory, bounds: IntArray) -> FloatArray:
         return np.zeros(0)
     there = np.flatnonzero(foot.present)
     steps = np.diff(foot.stamp_ns[there], prepend=foot.stamp_ns[:1]) * 1e-9
+    least = HOLE_EPOCHS * _seconds(foot, -1) / max(1, len(foot) - 1)
     firsts = np.searchsorted(there, np.append(bounds[:1, 0], bounds[:-1, 0])) + 1
     lasts = np.searchsorted(there, np.append(bounds[1:, 1], len(foot)))
     spans = np.column_stack([np.minimum(firsts, len(steps)), lasts])
     holes = np.maximum.reduceat(np.append(steps, 0.0), spans.ravel())[::2]
-    return np.where(spans[:, 0] < spans[:, 1], np.maximum(holes, 0.0), 0.0)
+    return np.where((spans[:, 0] < spans[:, 1]) & (holes >= least), np.maximum(holes, 0.0), 0.0)
 
 
 def _moving_share(foot: FootTrajectory, bounds: IntArray, strides: np.ndarray) -> float:

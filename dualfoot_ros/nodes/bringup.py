@@ -95,7 +95,12 @@ def _add_nodes(
         given = fusion.outputs.published, 0 if recorder is None else recorder.recorded
         return pairing.streams.received, fusion.streams.received, *given
 
-    return _when_over(sensors, fusion, progress)
+    def report() -> None:
+        """Say what was lost since the last report, too."""
+        pairing.streams.on_change()
+        fusion.streams.on_change()
+
+    return _when_over(sensors, fusion, progress, report)
 
 
 def _make_sensors(
@@ -147,9 +152,14 @@ def _make_recorder(path: Path, fusion: FusionNode, options: dict[str, Any]) -> R
 
 
 def _when_over(
-    sensors: Sequence[Sensors], node: Node, progress: Callable[[], tuple[int, ...]]
+    sensors: Sequence[Sensors],
+    node: Node,
+    progress: Callable[[], tuple[int, ...]],
+    report: Callable[[], None],
 ) -> Future:
     """Return a future that is done when all is played and the last results have come.
+
+    Before that ``report`` is called once more.
 
     So it is when ``progress``, counts of what nodes have taken and given, has not changed for
     ``QUIET_S``: before the alignment nothing is given, and a recorder may be behind.
@@ -166,6 +176,7 @@ def _when_over(
         if failed is not None:
             done.set_exception(failed)
         elif over and now == before:
+            report()
             done.set_result(True)
         before = now
 

@@ -6,7 +6,7 @@ from ..lazy_face import lazy_face
 
 if TYPE_CHECKING:
     from ..core import RecordingError
-    from .atomic import check_file, check_target, new_directory, new_files, write_text
+    from .atomic import check_file, check_target, new_directory, new_file, new_files, write_text
     from .log_times import read_arrivals
     from .open_bag import METADATA, is_bag, list_topics
     from .read import read_bag, read_logged
@@ -49,6 +49,7 @@ __all__ = [
     "list_topics",
     "new_bag",
     "new_directory",
+    "new_file",
     "new_files",
     "read_arrivals",
     "read_bag",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import tempfile
@@ -10,6 +11,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..core import RecordingError
+
+OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # not of one file
 
 
 def write_text(path: Path, text: str) -> None:
@@ -35,11 +38,26 @@ def write_bytes(path: Path, data: bytes) -> None:
     OSError
         When it cannot be written; names ``path``.
     """
-    check_file(path, overwrite=True)
-    with _scratch_folder(path) as scratch, _naming(path):
-        written = scratch / path.name
+    with new_file(path) as written:
         written.write_bytes(data)
-        written.replace(path)
+
+
+@contextmanager
+def new_file(path: Path) -> Iterator[Path]:
+    """Yield a path to write beside ``path``; it replaces ``path`` when the block ends well.
+
+    Raises
+    ------
+    RecordingError
+        When ``path`` exists and is no ordinary file (a folder, a device).
+    OSError
+        When it cannot be written; names ``path``.
+    """
+    check_file(path, overwrite=True)
+    with _scratch_folder(path) as scratch:
+        yield scratch / path.name
+        with _naming(path):
+            (scratch / path.name).replace(path)
 
 
 def check_file(path: Path, *, overwrite: bool = False) -> None:
@@ -67,14 +85,19 @@ def new_directory(path: Path, *, overwrite: bool = False, marker: str = "") -> I
     RecordingError
         When ``path`` exists and may not be replaced.
     OSError
-        When no folder can be made there; names ``path``.
+        When no folder can be made there, or the disk is full; names ``path``.
     """
     check_target(path, overwrite=overwrite, marker=marker)
     with _scratch_folder(path) as scratch:
         yield scratch / path.name
-        if path.exists():
-            path.rename(scratch / "replaced")
-        (scratch / path.name).rename(path)
+        replaced = scratch / "replaced"
+        try:
+            if path.exists():
+                path.rename(replaced)
+            (scratch / path.name).rename(path)
+        finally:
+            if replaced.exists() and not path.exists():
+                replaced.rename(path)
 
 
 @contextmanager
@@ -87,7 +110,7 @@ def new_files(directory: Path, *, replacing: Sequence[str] = ()) -> Iterator[Pat
     Raises
     ------
     OSError
-        When no folder can be made there; names ``directory``.
+        When no folder can be made there, or the disk is full; names ``directory``.
     """
     with _scratch_folder(directory) as scratch:
         yield scratch
@@ -104,7 +127,7 @@ def check_target(path: Path, *, overwrite: bool = False, marker: str = "") -> No
         return
     if not overwrite:
         raise RecordingError(
-            f"'{path}' exists already; choose another output or allow it to be overwritten"
+            f"'{path}' exists already; choose another output or let it be replaced (--overwrite)"
         )
     if not path.is_dir() or (marker and not (path / marker).exists()):
         raise RecordingError(
@@ -121,8 +144,21 @@ def _scratch_folder(path: Path) -> Iterator[Path]:
         made = tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".partial", dir=path.parent)
     try:
         yield Path(made)
+    except OSError as error:
+        if error.errno in OF_THE_DISK and str(error.filename or made).startswith(made):
+            raise _unwritable(path, error) from None
+        raise
     finally:
-        shutil.rmtree(made, ignore_errors=True)
+        _remove(made)
+
+
+def _remove(folder: str) -> None:
+    """Remove a folder, also when Ctrl-C comes in the midst of it."""
+    try:
+        shutil.rmtree(folder, ignore_errors=True)
+    except KeyboardInterrupt:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
 
 
 @contextmanager
@@ -131,6 +167,10 @@ def _naming(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        above = next((p for p in path.parents if os.path.lexists(p)), path.parent)
-        reason = error.strerror if above.is_dir() else f"'{above}' is no folder"
-        raise OSError(error.errno, f"it cannot be written: {reason}", str(path)) from None
+        raise _unwritable(path, error) from None
+
+
+def _unwritable(path: Path, error: OSError) -> OSError:
+    above = next((p for p in path.parents if os.path.lexists(p)), path.parent)
+    reason = error.strerror if above.is_dir() else f"'{above}' is no folder"
+    return OSError(error.errno, f"it cannot be written: {reason}", str(path))

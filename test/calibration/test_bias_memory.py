@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,20 +16,31 @@ from dualfoot_ros.simulation import WalkConfig, grade, simulate
 biases = st.tuples(*[st.floats(-0.4, 0.4)] * 3)
 
 
-def stand(*bias: float, std: float = 1e-3) -> RememberedStand:
-    return RememberedStand("2026-11-28T20:00:00+00:00", bias, std)
+def stand(*bias: float, std: float = 1e-3, second: int = 0) -> RememberedStand:
+    return RememberedStand(f"2026-11-28T20:00:{second:02d}+00:00", bias, std)
 
 
 @given(st.lists(biases, min_size=1, max_size=25))
 def test_a_file_holds_the_newest_stands_as_they_were(tmp_path_factory, given):
     memory, path = BiasMemory(), tmp_path_factory.mktemp("memory") / "shoes.yaml"
-    for bias in given:
-        memory.remember("left", stand(*bias))
+    for second, bias in enumerate(given):
+        memory.remember("left", stand(*bias, second=second))
     again = BiasMemory.load(memory.save(path))
     assert len(again.stands["left"]) == min(len(given), 20) and not again.stands["right"]
     found = [each.gyro_bias for each in again.stands["left"]]
     assert np.allclose(found, given[-20:], rtol=0.0, atol=1e-9)
     assert set(again.priors()) == {"left"}
+
+
+def test_a_walk_told_again_counts_once_and_tells_itself_nothing():
+    memory = BiasMemory()
+    for second, bias in ((10, 0.01), (30, 0.02), (30, 0.02 + 1e-7)):
+        memory.remember("left", stand(bias, 0.0, 0.0, second=second))
+    assert [each.gyro_bias[0] for each in memory.stands["left"]] == [0.01, 0.02 + 1e-7]
+    at_30 = int(datetime(2026, 11, 28, 20, 0, 30, tzinfo=UTC).timestamp() * 1e9) + 700_000_000
+    others = memory.without(at_30 - 500_000_000, at_30 + 60_000_000_000)
+    assert [each.gyro_bias[0] for each in others.stands["left"]] == [0.01]
+    assert memory.without(0, 60_000_000_000) is memory  # seconds of a device are no date
 
 
 def test_a_memory_that_does_not_exist_yet_is_empty(tmp_path):

@@ -5,9 +5,10 @@ from collections import defaultdict
 
 import pytest
 
-from dualfoot_ros.cli.arguments import check_counts, settings, tracker_config
+from dualfoot_ros.cli.arguments import check_counts, load_bag, settings, tracker_config
 from dualfoot_ros.cli.main import VERBS, parser_of
-from dualfoot_ros.core import ConfigError, EvaluationError
+from dualfoot_ros.cli.table_options import INTAKE_DEFAULTS
+from dualfoot_ros.core import ConfigError, EvaluationError, RecordingError
 
 SHARED = ("--config", "--json", "--storage", "--jobs", "--align", "--allow-nan", "--left-topic")
 
@@ -55,6 +56,33 @@ def test_every_option_has_words_of_help():
         if action.option_strings and not action.help
     ]
     assert missing == []
+
+
+VALUES = {
+    "--axes": "+y-x+z",
+    "--force-unit": "g",
+    "--rate-unit": "deg/s",
+    "--columns": "time=t",
+    "--time-unit": "ms",
+    "--delimiter": "tab",
+    "--decimal": "comma",
+    "--layout": "mine.yaml",
+}
+
+
+@pytest.mark.parametrize("verb", ["info", "sync", "evaluate", "calibrate spacing"])
+def test_an_option_of_files_of_sensors_is_refused_with_a_bag(verb, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.yaml").write_text("format: dualfoot_layout\nversion: 1\ntime_unit: ms\n")
+    parser = dict(parsers())[verb]
+    group = next(g for g in parser._action_groups if g.title == "files of sensors in place of BAG")
+    flags = [a.option_strings[0] for a in group._group_actions]
+    options = [flag for flag in flags if flag not in ("--left", "--right")]
+    assert {o[2:].replace("-", "_") for o in options} == set(INTAKE_DEFAULTS)
+    for flag in options:
+        args = parser.parse_args(["walk", f"{flag}={VALUES.get(flag, '7')}"])
+        with pytest.raises(RecordingError, match=f"^{flag} does not apply: 'walk' is a bag"):
+            load_bag("walk", args)
 
 
 def test_settings_are_read_as_yaml_and_the_method_wins():

@@ -1,5 +1,6 @@
 """``dualfoot calibrate`` as a user meets it."""
 
+import errno
 import json
 import os
 
@@ -229,7 +230,9 @@ def test_exchanged_feet_are_said_whatever_the_parameters(bags, capsys, parameter
         (["accelerometer", "SIX", "--model", "full"], "need at least 9 attitudes"),
         (["accelerometer", "ONE"], "1 different attitude is too few"),
         (["accelerometer", "ONE", "EIGHT"], "exports and bags are given together"),
-        (["accelerometer", "EIGHT", "--axes=+y-x+z"], "--axes is for exports"),
+        (["accelerometer", "EIGHT", "--axes=+y-x+z"], "--axes does not apply: "),
+        (["gyro", "EIGHT", "--rate-unit", "deg/s"], "--rate-unit does not apply: "),
+        (["gyro", "EIGHT", "--skip", "3"], "--skip does not apply: "),
         (["accelerometer", "EIGHT"], "different attitude"),
         (["gyro", "EIGHT", "--left-topic", "/a", "--right-topic", "/b"], "name one with"),
         (["spacing", "no_such_bag"], "no_such_bag"),
@@ -257,6 +260,19 @@ def test_no_other_file_is_overwritten(six, bags, tmp_path, capsys):
     assert main(["calibrate", "spacing", bags["eight"], "-o", str(mine)]) == 2
     assert "exists already" in capsys.readouterr().err
     assert mine.read_text() == "mine: true\n"
+
+
+def test_without_its_figure_a_calibration_is_not_written(six, tmp_path, capsys, monkeypatch):
+    def full(fits, path):
+        path.write_text("half a fig")
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("dualfoot_ros.calibration.plots.draw_allan", full)
+    output = tmp_path / "out"
+    output.mkdir()
+    assert main(["calibrate", "gyro", six[0], "-o", str(output / "gyro.yaml")]) == 2
+    assert "_allan.png': it cannot be written: No space left on device" in capsys.readouterr().err
+    assert list(output.iterdir()) == []
 
 
 def test_a_stuck_sensor_is_refused_for_what_it_spoils_and_a_warning_for_the_rest(tmp_path, capsys):

@@ -2,13 +2,14 @@
 
 import csv
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from dualfoot_ros.calibration import Calibration, SensorCalibration, Triad
 from dualfoot_ros.cli.main import main
-from dualfoot_ros.recording import Recording, write_bag
+from dualfoot_ros.recording import Recording, read_bag, write_bag
 from dualfoot_ros.simulation import WalkConfig, simulate
 
 
@@ -118,6 +119,20 @@ def test_presets_in_a_table_are_explained_below_it(bags, capsys):
     said = " ".join(capsys.readouterr().out.split())
     assert "liu2023: the zero velocity holds at the sensor" in said
     assert "zupt: the zero velocity" not in said
+
+
+def test_what_is_wrong_with_a_bag_is_said_once_below_the_tables(bags, tmp_path, capsys):
+    good = read_bag(bags[0])
+    left = replace(good.left, angular_rate=-good.left.angular_rate)
+    bad = str(write_bag(tmp_path / "negated", replace(good, left=left)))
+    command = ["compare", bags[0], bad, "--methods", "zupt,idc", "--jobs", "1"]
+    assert main([*command, "-o", str(tmp_path / "report")]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert said.count("warning: left foot: the angular rate has the wrong sign") == 1
+    assert "negated: warning: left foot" in said.replace("- ", "-")
+    assert f"{bags[0]}: warning" not in said
+    page = (tmp_path / "report" / "report.html").read_text()
+    assert page.count("negated: left foot: the angular rate has the wrong sign") == 1
 
 
 def test_a_calibration_corrects_every_bag(bags, tmp_path, capsys):

@@ -139,6 +139,26 @@ def test_what_cannot_be_used_is_a_sentence_and_exit_code_2(bag, arguments, sente
     assert captured.out == ""
 
 
+def test_a_foot_without_samples_has_dashes_and_half_a_truth_is_said(tmp_path, capsys):
+    made = simulate(WalkConfig(route="straight", rate=60.0), seed=4)
+    bag = str(write_bag(tmp_path / "w", Recording(made.left, left_truth=made.left_truth)))
+    assert main(["evaluate", bag]) == 0
+    out = capsys.readouterr().out
+    rows = {cells[1].strip(): cells[3].strip() for cells in map(split_row, out.splitlines())}
+    assert (rows["stances"], rows["distance walked (m)"], rows["steady strides"]) == (
+        "-",
+        "-",
+        "-",
+    )
+    assert "no errors against the truth: they take both feet, here is the left one only" in out
+
+
+def split_row(line):
+    """Return the cells of a row of a table, and empty ones of another line."""
+    cells = line.split("│")
+    return cells if len(cells) > 4 else [""] * 5
+
+
 def test_a_foot_that_is_asked_for_and_missing_leaves_no_folder(one_foot, tmp_path, capsys):
     out = str(tmp_path / "report")
     assert main(["evaluate", one_foot, "--feet", "right", "-o", out]) == 2

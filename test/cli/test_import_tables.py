@@ -236,6 +236,15 @@ def test_neither_a_bag_nor_files_is_a_sentence(tmp_path, dualfoot):
     done = dualfoot("info", cwd=tmp_path)
     assert done.returncode == 2
     assert "no recording given; allowed is BAG, or --left FILE --right FILE" in done.stderr
+    done = dualfoot("info", "--left", "left.csv", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "--right FILE is missing; allowed is BAG, or --left FILE" in done.stderr
+
+
+def test_the_topics_of_a_bag_are_refused_with_tables(tmp_path, dualfoot):
+    done = dualfoot("info", *write(tmp_path, generic), "--left-topic", "/a", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "--left-topic does not apply to the format csv; it is for rosbag" in done.stderr
 
 
 def test_a_table_of_a_sensor_at_rest_calibrates(tmp_path, dualfoot):

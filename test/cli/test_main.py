@@ -80,6 +80,28 @@ def test_version_is_that_of_the_package(capsys):
     assert capsys.readouterr().out.strip() == f"dualfoot {__version__}"
 
 
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (
+            ["evaluate", "walk", "--outpt", "r"],
+            "dualfoot evaluate: error: unrecognized arguments: --outpt r; did you mean '--output'?"
+            " 'dualfoot evaluate --help' lists the options\n",
+        ),
+        (
+            ["calibrate", "gyro"],
+            "dualfoot calibrate gyro: error: the following arguments are required: SOURCE; "
+            "'dualfoot calibrate gyro --help' lists the options\n",
+        ),
+    ],
+)
+def test_wrong_arguments_are_refused_in_one_sentence(arguments, sentence, capsys):
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    assert end.value.code == 2
+    assert capsys.readouterr().err == sentence
+
+
 def test_an_unknown_verb_is_refused_with_the_nearest_one(capsys):
     assert main(["evalute", "walk"]) == 2
     error = capsys.readouterr().err

@@ -11,6 +11,7 @@ from dualfoot_ros.inspection import FindingKind
 from dualfoot_ros.inspection.findings import check_usable, findings_of, require_usable
 from dualfoot_ros.inspection.quality import clipped, quality_of
 from dualfoot_ros.recording import Recording, RecordingError, Topics
+from dualfoot_ros.simulation import WalkConfig, simulate
 
 
 def scaled(series, force=1.0, rate=1.0):
@@ -38,7 +39,11 @@ def with_nan(series):
 
 BAD = [
     (Recording(), "missing", "no samples of either foot"),
-    (Recording(left=moving(1)), "missing", "no samples of the right foot.*the left foot is"),
+    (
+        Recording(left=moving(1)),
+        "missing",
+        "no samples of the right foot, and both feet",
+    ),
     (of(right=moving(2)[:0]), "missing", "no samples of the right foot"),
     (of(left=moving(1)[:1]), "empty", "left foot: 1 of 1 samples can be used"),
     (of(left=with_nan(moving(1))), "not_finite", "left foot: 1 of 1200 samples .* sample 700"),
@@ -177,6 +182,28 @@ def test_a_gyro_that_does_not_fit_the_accelerometer_is_named(times, kind, words)
     found = [f for f in findings_of(Recording(**feet)) if f.kind == kind]
     assert [f.about for f in found] == ["left", "right"]
     assert all(words in f.sentence for f in found)
+
+
+def test_a_scale_of_the_rate_that_the_time_explains_names_the_rate_of_sampling():
+    slow = {
+        foot: replace(series, stamp_ns=2 * series.stamp_ns)
+        for foot, series in (("left", moving(1)), ("right", moving(2)))
+    }
+    found = [f for f in findings_of(Recording(**slow)) if f.kind is FindingKind.RATE_SCALE]
+    seen = [float(f.remedy.split("come at ")[1].split(" Hz and not at 50 Hz")[0]) for f in found]
+    assert seen == pytest.approx([100.0, 100.0], rel=0.1)
+
+
+@pytest.mark.parametrize("speed", [1.2, 2.0])
+def test_a_brisk_walk_without_any_stand_has_its_unit_from_its_stances(speed):
+    made = simulate(WalkConfig(route="straight", rate=60.0, speed=speed, standing=2.0), seed=3)
+    good = Recording(made.left[300:1500], made.right[300:1500])
+    assert quality_of(good.left).stand is None
+    assert "force_unit" not in named(good)
+    in_g = Recording(scaled(good.left, force=1 / GRAVITY), scaled(good.right, force=1 / GRAVITY))
+    found = [f.text for f in findings_of(in_g) if f.kind is FindingKind.FORCE_UNIT]
+    assert len(found) == 2
+    assert all("in its quiet moments, so it is in g" in text for text in found)
 
 
 def test_a_foot_that_only_stands_may_turn_slowly():

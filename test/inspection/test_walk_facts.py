@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from dualfoot_ros.core import stance_bounds
-from dualfoot_ros.inspection import walk_facts, walk_findings
+from dualfoot_ros.inspection import FindingKind, walk_facts, walk_findings
 from dualfoot_ros.simulation import WalkConfig, simulate
 
 from .tracks import track_feet
@@ -36,6 +36,41 @@ def test_the_hole_of_the_longest_stride_is_that_of_the_samples_beside_it(walk):
         found.append(walk_facts(lossy).feet["left"].longest_hole_s)
         assert found[-1] == expected
     assert longest > 0 and len(set(found)) > 3
+
+
+def test_the_interval_of_slow_samples_is_no_hole_and_a_lost_sample_is_one(walk):
+    slow = replace(
+        walk,
+        left=replace(walk.left, stamp_ns=10 * walk.left.stamp_ns),
+        right=replace(walk.right, stamp_ns=10 * walk.right.stamp_ns),
+    )
+    assert walk_facts(slow).feet["left"].longest_hole_s == 0.0
+    assert not [f for f in walk_findings(slow) if "samples are missing" in f.text]
+    stance = stance_bounds(walk.left.stance)[:, 0]
+    present = walk.left.present.copy()
+    present[stance] = False
+    lossy = replace(slow, left=replace(slow.left, present=present))
+    assert walk_facts(lossy).feet["left"].longest_hole_s == pytest.approx(0.2)
+
+
+def longer(walk, times):
+    """Return the walk with its positions scaled."""
+    feet = (walk.left, walk.right)
+    left, right = (replace(foot, position=times * foot.position) for foot in feet)
+    return replace(walk, left=left, right=right)
+
+
+def test_strides_that_nobody_makes_point_to_the_time_and_a_single_one_to_a_stance(walk):
+    found = [f for f in walk_findings(longer(walk, 7.0)) if f.kind is FindingKind.LONG_STRIDE]
+    assert [f.about for f in found] == ["left", "right"]
+    assert all("in the median, which nobody makes" in f.text for f in found)
+    assert all("the sampling rate, the unit of the stamps" in f.remedy for f in found)
+    one = walk.left.stance.copy()
+    bounds = stance_bounds(one)
+    one[bounds[1, 0] : bounds[-1, 0]] = False
+    alone = replace(walk, left=replace(walk.left, stance=one))
+    (text,) = (f.text for f in walk_findings(alone) if f.kind is FindingKind.LONG_STRIDE)
+    assert text.endswith("after the start of the track, so a stance is missed in it")
 
 
 def test_a_foot_without_any_stance_is_found_and_stops_nothing(walk):

@@ -31,10 +31,12 @@ def test_bringup_plays_a_bag_records_what_comes_of_it_and_ends(program, short_ba
 
 def test_it_goes_on_while_samples_are_taken_though_nothing_is_given_yet():
     """On a busy machine the bag may be over long before the alignment."""
-    looks, played = [], Future()
+    looks, reports, played = [], [], Future()
     node = SimpleNamespace(create_timer=lambda _period, look, clock: looks.append(look))
     taken = iter([(1, 0), (300, 0), (500, 0), (500, 7), (500, 7)])
-    done = bringup._when_over([SimpleNamespace(done=played)], node, lambda: next(taken))
+    done = bringup._when_over(
+        [SimpleNamespace(done=played)], node, lambda: next(taken), lambda: reports.append(1)
+    )
     (look,) = looks
     look()
     assert not done.done()  # still playing: nobody asks what is taken
@@ -42,8 +44,10 @@ def test_it_goes_on_while_samples_are_taken_though_nothing_is_given_yet():
     for _ in range(4):
         look()
         assert not done.done()
+    assert not reports
     look()
     assert done.done() and done.exception() is None
+    assert reports == [1]  # what was lost since the last report is said, too
 
 
 def test_a_recording_that_is_interrupted_is_a_whole_bag(program, walk_bag, tmp_path):

@@ -2,6 +2,8 @@
 
 import os
 import re
+import resource
+import shutil
 
 import pytest
 
@@ -80,3 +82,63 @@ def test_files_of_a_block_that_fails_leave_the_folder_as_it_was(tmp_path, there)
     with pytest.raises(ZeroDivisionError):
         fail()
     assert [p.name for p in tmp_path.rglob("*")] == (["report", "old.tum"] if there else [])
+
+
+def large(path):
+    """Write a file in the midst of a folder that is made."""
+    with new_directory(path) as folder:
+        folder.mkdir()
+        (folder / "x").write_bytes(bytes(10_000))
+
+
+def large_files(path):
+    with new_files(path) as folder:
+        (folder / "x").write_bytes(bytes(10_000))
+
+
+@pytest.fixture
+def full_disk():
+    """Let no file grow beyond 1000 bytes."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, hard))
+    yield
+    resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+def large_text(path):
+    write_text(path, 10_000 * "a")
+
+
+@pytest.mark.parametrize("write", [large, large_files, large_text])
+def test_a_disk_that_is_full_is_said_of_the_output(write, tmp_path, full_disk):
+    target = tmp_path / "x"
+    with pytest.raises(OSError, match="it cannot be written: File too large") as found:
+        write(target)
+    assert found.value.filename == str(target)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_scratch_folder_goes_also_when_an_interrupt_comes_while_it_is_removed(
+    tmp_path, monkeypatch
+):
+    remove, calls = shutil.rmtree, []
+
+    def interrupted(*args, **kwargs):
+        calls.append(args)
+        if len(calls) == 1:
+            raise KeyboardInterrupt
+        remove(*args, **kwargs)
+
+    monkeypatch.setattr(shutil, "rmtree", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        text(tmp_path / "x")
+    assert [p.name for p in tmp_path.iterdir()] == ["x"]
+
+
+def test_what_was_to_be_replaced_comes_back_when_the_new_one_does_not(tmp_path):
+    target = tmp_path / "walk"
+    made(target)
+    (target / "mine").write_text("old")
+    with pytest.raises(FileNotFoundError), new_directory(target, overwrite=True):
+        pass  # nothing is made
+    assert [str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*")] == ["walk", "walk/mine"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -62,14 +63,16 @@ def run(args: argparse.Namespace) -> int:
     calibration = common.existing(args.output)
     loaded = common.load(args)
     results = {name: _fit(name, sources, args) for name, sources in loaded.items()}
-    files = []
+    files: list[Path] = []
     if args.output is not None:
         for name, (fit, _, _) in results.items():
             calibration = calibration.with_triad(name, "accelerometer", fit.triad())
-        calibration.save(args.output)
-        files.append(args.output)
-        if not args.no_plots:
-            files.append(_draw(results, args.output))
+        files = common.write_with_figure(
+            args.output,
+            calibration.save,
+            common.figure_path(args.output, "accelerometer", list(results)),
+            None if args.no_plots else partial(_draw, results),
+        )
     lines = [line for name, result in results.items() for line in _lines(name, *result)]
     facts = {name: _facts(*result) for name, result in results.items()}
     common.show(args, {**facts, "files": [str(f) for f in files]}, [*lines, *map(str, files)])
@@ -94,11 +97,11 @@ def _fit(name: str, sources: list[tuple[str, Any]], args: argparse.Namespace) ->
     return fit, segments, cross_validate(segments, fit)
 
 
-def _draw(results: dict[str, Result], output: Path) -> Path:
+def _draw(results: dict[str, Result], path: Path) -> None:
     from ...calibration.plots import draw_residuals
 
     fits = {name: (fit, segments) for name, (fit, segments, _) in results.items()}
-    return draw_residuals(fits, common.figure_path(output, "accelerometer", list(results)))
+    draw_residuals(fits, path)
 
 
 def _lines(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -115,6 +115,24 @@ def figure_path(output: Path, subject: str, sensors: Sequence[str] = ()) -> Path
     one = len(sensors) == 1 and sensors[0] in FEET and sensors[0] not in output.stem
     foot = f"{sensors[0]}_" if one else ""
     return output.with_name(f"{output.stem}_{foot}{subject}.png")
+
+
+def write_with_figure(
+    output: Path,
+    write: Callable[[Path], object],
+    figure: Path,
+    draw: Callable[[Path], object] | None,
+) -> list[Path]:
+    """Write ``output`` and draw the figure beside it, both or none; return what was written."""
+    from ...recording import new_file
+
+    if draw is None:
+        write(output)
+        return [output]
+    with new_file(output) as written, new_file(figure) as drawn:
+        draw(drawn)
+        write(written)
+    return [output, figure]
 
 
 def show(args: argparse.Namespace, facts: Mapping[str, Any], lines: list[str]) -> None:

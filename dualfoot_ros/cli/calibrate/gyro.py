@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -56,10 +57,12 @@ def run(args: argparse.Namespace) -> int:
     if args.output is not None:
         for name, fit in fits.items():
             calibration = calibration.with_triad(name, "gyro", fit.triad())
-        calibration.save(args.output)
-        files.append(args.output)
-        if not args.no_plots:
-            files.append(_draw(fits, args.output))
+        files += common.write_with_figure(
+            args.output,
+            calibration.save,
+            common.figure_path(args.output, "allan", list(fits)),
+            None if args.no_plots else partial(_draw, fits),
+        )
     lines = [line for name, fit in fits.items() for line in _lines(name, fit)]
     lines += [f"{name}: {value:.3g}" for name, value in noise.items()]
     facts = {name: _facts(fit) for name, fit in fits.items()}
@@ -100,10 +103,10 @@ def _write_parameters(path: Path, fits: dict[str, GyroFit], noise: dict[str, flo
     return path
 
 
-def _draw(fits: dict[str, GyroFit], output: Path) -> Path:
+def _draw(fits: dict[str, GyroFit], path: Path) -> None:
     from ...calibration.plots import draw_allan
 
-    return draw_allan(fits, common.figure_path(output, "allan", list(fits)))
+    draw_allan(fits, path)
 
 
 def _lines(name: str, fit: GyroFit) -> Iterator[str]:

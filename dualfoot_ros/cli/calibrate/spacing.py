@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -96,13 +97,19 @@ def _write(args: argparse.Namespace, fit: SpacingFit) -> list[Path]:
     name = Path(recording_name(args)).name
     remarks = [f"The feet in passing, measured on '{name}' ('dualfoot calibrate spacing').", ""]
     remarks += [line.strip() for line in _lines(name, fit)]
-    write_text(args.output, parameter_text(fit.parameters(), [r for r in remarks if r]))
-    files = [args.output]
-    if not args.no_plots:
-        from ...calibration.plots import draw_spacing
+    text = parameter_text(fit.parameters(), [r for r in remarks if r])
+    return common.write_with_figure(
+        args.output,
+        lambda path: write_text(path, text),
+        common.figure_path(args.output, "passing"),
+        None if args.no_plots else partial(_draw, fit, name),
+    )
 
-        files.append(draw_spacing(fit, common.figure_path(args.output, "passing"), name))
-    return files
+
+def _draw(fit: SpacingFit, name: str, path: Path) -> None:
+    from ...calibration.plots import draw_spacing
+
+    draw_spacing(fit, path, name)
 
 
 def _lines(name: str, fit: SpacingFit) -> Iterator[str]:

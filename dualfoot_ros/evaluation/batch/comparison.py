@@ -100,6 +100,7 @@ class Entry:
         closest, the same moments for every method; None without truth (Liu et al. 2023, Table II)
     stride : the feet at the 68th stride, None on shorter walks (Ma and Särkkä 2023, Table I)
     run_s : CPU time of time alignment and tracking, s (Liu et al. 2023, Table IV)
+    warnings : sentences on the samples of the bag, whatever the case
     """
 
     bag: str
@@ -109,6 +110,7 @@ class Entry:
     stride: StridePlace | None
     run_s: float
     tracks: Tracks
+    warnings: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Return all figures as plain values."""
@@ -149,6 +151,7 @@ def compare_one(job: Job) -> Entry:
         stride_place(evaluation.tracked, evaluation.markers.get("right")),
         evaluation.run_s or 0.0,
         _tracks(evaluation),
+        tuple(finding.sentence for finding in findings),
     )
 
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ...core import FEET, FloatArray, FootTrajectory, picked, quaternion_matrices
+from ...inspection import LEAST_HOLE_S, longest_holes_s
 from ..frames.association import Footfalls, seconds
 from .foot_contacts import FootContacts, find_contacts, forward_axis
 
@@ -49,7 +50,7 @@ class Stride:
     contact_deg, lift_off_deg : inclination of the sole at contact (which ends the stride) and at
         lift-off, against the flat foot; toes up positive
     turn_deg : change of the foot's heading over the stride, to the left positive
-    steady : neither the first nor the last stride of a bout, straight and level
+    steady : neither the first nor the last stride of a bout, straight, level, all samples there
     """
 
     foot: str
@@ -110,6 +111,7 @@ class _Foot:
     stamp_ns, time_s : of the middles of the stances
     stood_from_s, stood_to_s : s, first and last epoch of every stance
     heading : rad, in the middle of every stance
+    is_whole : (M,) whether no samples were missing from the step before a stance to that after it
     contact_s, lift_off_s, contact_deg, lift_off_deg : as in :class:`FootContacts`
     """
 
@@ -123,6 +125,7 @@ class _Foot:
     stood_from_s: list[float]
     stood_to_s: list[float]
     heading: list[float]
+    is_whole: list[bool]
     contact_s: list[float]
     lift_off_s: list[float]
     contact_deg: list[float]
@@ -148,6 +151,7 @@ class _Foot:
             time[bounds[:, 0]].tolist(),
             time[bounds[:, 1] - 1].tolist(),
             [math.atan2(y, x) for x, y, _ in faced.tolist()],
+            (longest_holes_s(track, bounds) < LEAST_HOLE_S).tolist(),
             *(getattr(contacts, field.name).tolist() for field in fields(contacts)),
         )
 
@@ -219,8 +223,11 @@ def _standing(other: _Foot, k: int, foot: _Foot) -> int | None:
 
 
 def _step(name: str, k: int, foot: _Foot, other: _Foot, stood: int | None) -> tuple[float, float]:
-    """Return length and width of the step that ends the stride (Huxham et al. 2006), m."""
-    if stood is None:
+    """Return length and width of the step that ends the stride (Huxham et al. 2006), m.
+
+    They are nan where samples of the other foot were missing beside its stance.
+    """
+    if stood is None or not other.is_whole[stood]:
         return math.nan, math.nan
     way = (foot.place[k + 1] - foot.place[k])[:2]
     along = way / foot.way_m[k]
@@ -242,8 +249,11 @@ def _clearance(k: int, foot: _Foot) -> float:
 
 
 def _is_steady(k: int, foot: _Foot, stride_s: float, turn_deg: float, rise_m: float) -> bool:
-    """Tell strides of even walking; those that leave or reach a stand are none."""
-    if not math.isfinite(stride_s) or k + 2 >= len(foot.heading):
+    """Tell strides of even walking; those that leave or reach a stand are none.
+
+    Nor are those beside missing samples: what was walked there is put right in the next stance.
+    """
+    if not math.isfinite(stride_s) or k + 2 >= len(foot.heading) or not foot.is_whole[k]:
         return False
     contact = foot.contact_s
     goes_on = math.isfinite(_within_a_stride(contact[k + 2] - contact[k + 1]))

@@ -68,9 +68,12 @@ def number(value: float | None, digits: int = 2) -> str:
 
 
 def _walk(run: Evaluation) -> Iterator[Row]:
-    left, right = run.feet_tracks.values()
-    yield "stances", str(len(Footfalls.of(left))), str(len(Footfalls.of(right))), ""
-    yield "distance walked (m)", number(left.distance_m), number(right.distance_m), ""
+    tracks = run.feet_tracks.items()
+    seen = [track if foot in run.tracked_feet else None for foot, track in tracks]
+    stances = [str(len(Footfalls.of(track))) if track else "-" for track in seen]
+    yield "stances", stances[0], stances[1], ""
+    ways = [number(track.distance_m) if track else "-" for track in seen]
+    yield "distance walked (m)", ways[0], ways[1], ""
 
 
 def _truth(run: Evaluation) -> Iterator[Row]:
@@ -156,10 +159,12 @@ def _spread(label: str, spread: Statistics) -> Iterator[Row]:
 
 def _gait(run: Evaluation) -> Iterator[Row]:
     """Yield the parameters that everybody asks for; the others are in the files of a report."""
-    left, right = (run.gait.count(foot, steady=True) for foot in FEET)
-    if left + right == 0:
+    counts = [run.gait.count(foot, steady=True) for foot in FEET]
+    if sum(counts) == 0:
         return
-    yield "steady strides", str(left), str(right), ""
+    seen = [foot in run.tracked_feet for foot in FEET]
+    shown = [str(n) if there else "-" for n, there in zip(counts, seen, strict=True)]
+    yield "steady strides", shown[0], shown[1], ""
     for name, digits in SHOWN_GAIT.items():
         own = run.gait.parameters[name]
         feet = [

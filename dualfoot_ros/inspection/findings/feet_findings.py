@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from ..lateral_spacing import SideBySide
+from ..stance_statistics import TurnTaking
 from ..walk_facts import WalkFacts
 from .finding import Finding, Severity
 from .finding_kinds import FindingKind
@@ -20,6 +21,16 @@ SPACING_M = (0.05, 0.5)
 SPACING_KNOWN_M = 0.05  # standard deviation beyond which nothing is said of the spacing
 FARTHEST_EXCHANGED_M = -0.5
 MOST_JUMPS = 2
+OFF_TURN = 0.12  # of a cycle; real walks have up to 0.02, a limp rarely more than 0.1
+LEAST_CYCLES = 8
+ONE_SHOE = 0.45  # of a cycle: two sensors that stand together
+STEADY = 0.8
+LEAST_LEAD = 2  # strides of one foot while the other one stands: nobody makes them
+LEAST_STARTS = 2  # starts and stops that agree
+APART_REMEDY = (
+    "find the offset with 'dualfoot sync BAG -o ALIGNED', or give it on import (--right-offset) "
+    "or live (stamping.right_offset); a heavy limp looks alike"
+)
 
 
 def find_feet_apart(facts: WalkFacts) -> Iterator[Finding]:
@@ -34,6 +45,35 @@ def find_feet_apart(facts: WalkFacts) -> Iterator[Finding]:
             "look at the other warnings, at units, axes and stamps of both sensors, and whether "
             "both are of this walk",
         )
+
+
+def find_clocks_apart(turns: TurnTaking) -> Iterator[Finding]:
+    """Yield a finding when the feet do not take turns, as their stamps say.
+
+    Clocks that are a whole cycle apart show at starts and stops only, and not at all of them.
+    """
+    seem = "so the clocks of the sensors seem to be apart"
+    steady = turns.cycles >= LEAST_CYCLES and turns.steadiness > STEADY
+    leads, off = turns.leads, abs(turns.late_s) / turns.cycle_s
+    if steady and OFF_TURN < off < ONE_SHOE:
+        when = "late" if turns.late_s > 0.0 else "early"
+        text = (
+            f"the right foot stands {abs(turns.late_s):.2f} s too {when} for the steps of the "
+            f"left one, {seem} by that, or by that and whole cycles of {turns.cycle_s:.2f} s"
+        )
+    elif (
+        len(leads) >= LEAST_STARTS
+        and len({lead > 0 for lead in leads}) == 1
+        and max(map(abs, leads)) >= LEAST_LEAD
+    ):
+        foot = "left" if leads[0] > 0 else "right"
+        text = (
+            f"the {foot} foot makes up to {max(map(abs, leads))} strides before the other one "
+            f"walks, or stands as early before it, {seem} by a stride or more"
+        )
+    else:
+        return
+    yield Finding(FindingKind.CLOCKS_APART, Severity.WARNING, text, APART_REMEDY)
 
 
 def find_unequal_ways(facts: WalkFacts) -> Iterator[Finding]:

@@ -55,6 +55,7 @@ class FindingKind(StrEnum):
     OVERLAID = "overlaid", True
     NO_OVERLAP = "no_overlap"
     RATES = "rates"
+    CLOCKS_APART = "clocks_apart", True
     ONE_FOOT = "one_foot"
     NOT_STAMPED = "not_stamped"
     CLOCK_REFUSED = "clock_refused", True

@@ -77,8 +77,10 @@ def find_rate_scale(foot: str, quality: Quality) -> Iterator[Finding]:
             f"{foot} foot: the angular rate is {abs(1.0 / gyro.scale - 1.0):.0%} too "
             f"{'small' if gyro.scale > 1.0 else 'large'} against the specific force "
             f"(+- {gyro.scale_std:.0%}, from {gyro.cycles} steps)",
-            "check the scale of the gyro or of the accelerometer in the driver, or calibrate "
-            "them with 'dualfoot calibrate'",
+            "check the time of the samples, as the same is seen of samples that come at "
+            f"{quality.rate_hz / gyro.scale:.3g} Hz and not at {quality.rate_hz:.3g} Hz, and the "
+            "scale of the gyro or of the accelerometer in the driver; or calibrate them with "
+            "'dualfoot calibrate'",
             foot,
         )
 

@@ -86,7 +86,11 @@ def require_usable(
     """Return the samples of both feet; raise as :func:`check_usable`, and when a foot has none."""
     findings = check_usable(recording, allow_not_finite=allow_not_finite)
     if not recording.left or not recording.right:
-        raise RecordingError(next(f for f in findings if f.kind is FindingKind.MISSING).sentence)
+        missing = next(f for f in findings if f.kind is FindingKind.MISSING)
+        raise RecordingError(
+            f"there are no samples of the {missing.about} foot, and both feet are needed here; "
+            f"{missing.remedy}"
+        )
     return recording.left, recording.right
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..walk_facts import LEAST_HOLE_S, WalkFacts
+from ..walk_facts import LEAST_HOLE_S, StepFacts, WalkFacts
 from .finding import Finding, Severity
 from .finding_kinds import FindingKind
 
@@ -21,6 +21,10 @@ LEAST_STRIDES = 4
 REMEDY = (
     "try a higher stance.threshold, or a shorter stance.min_stance; the track is wrong from there "
     "on"
+)
+TIME_REMEDY = (
+    "check the time of the samples (the sampling rate, the unit of the stamps), the units and the "
+    "scale of accelerometer and gyro; the track is wrong"
 )
 HOLE_REMEDY = (
     "check the link of the sensor and the load of the host; what was walked there is bridged, and "
@@ -58,16 +62,23 @@ def find_long_strides(facts: WalkFacts) -> Iterator[Finding]:
     for foot, steps in facts.feet.items():
         double = max(LEAST_DOUBLE_M, TWICE * steps.median_stride_m)
         if steps.strides and steps.longest_stride_m > min(LONGEST_STRIDE_M, double):
-            why, remedy = _reason(steps.longest_hole_s, ", so a stance is missed in it")
+            text, remedy = _describe_stride(steps)
             yield Finding(
-                FindingKind.LONG_STRIDE,
-                Severity.WARNING,
-                f"{foot} foot: a stride of {steps.longest_stride_m:.2f} m, "
-                f"{steps.longest_at_s:.1f} s after the start of the track, where "
-                f"{steps.median_stride_m:.2f} m are usual{why}",
-                remedy,
-                foot,
+                FindingKind.LONG_STRIDE, Severity.WARNING, f"{foot} foot: {text}", remedy, foot
             )
+
+
+def _describe_stride(steps: StepFacts) -> tuple[str, str]:
+    """Return text and remedy about strides that nobody makes: all of them, or the longest."""
+    usual = f"{steps.median_stride_m:.2f} m"
+    if steps.strides >= LEAST_STRIDES and steps.median_stride_m > LONGEST_STRIDE_M:
+        return f"strides of {usual} in the median, which nobody makes", TIME_REMEDY
+    why, remedy = _reason(steps.longest_hole_s, ", so a stance is missed in it")
+    text = (
+        f"a stride of {steps.longest_stride_m:.2f} m, {steps.longest_at_s:.1f} s after the start "
+        "of the track"
+    )
+    return f"{text}, where {usual} are usual{why}" if steps.strides > 1 else text + why, remedy
 
 
 def _reason(hole_s: float, else_why: str = "") -> tuple[str, str]:

@@ -129,7 +129,8 @@ def find_low_rate(foot: str, quality: Quality) -> Iterator[Finding]:
             FindingKind.LOW_RATE,
             Severity.WARNING,
             f"{foot} foot: {quality.rate_hz:.1f} Hz are too few to follow the swing of a foot",
-            f"set the sensor to 60 Hz or more, at least to {LOW_RATE_HZ:.0f} Hz",
+            f"set the sensor to 60 Hz or more, at least to {LOW_RATE_HZ:.0f} Hz; if it is set so, "
+            "the unit of the stamps or the rate that was given is wrong",
             foot,
         )
 

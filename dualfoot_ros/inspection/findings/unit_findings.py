@@ -5,11 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...core import STANDARD_GRAVITY
-from ..quality import Quality
+from ..quality import GravityFrom, Quality
 from .finding import Finding, Severity
 from .finding_kinds import FindingKind
 
 GRAVITY_ERROR = 1.5  # m/s^2, more than any accelerometer bias
+GRAVITY_RANGE = {  # m/s^2, beyond which no foot in SI units reads
+    GravityFrom.STAND: (STANDARD_GRAVITY - GRAVITY_ERROR, STANDARD_GRAVITY + GRAVITY_ERROR),
+    GravityFrom.STANCES: (
+        STANDARD_GRAVITY - 2 * GRAVITY_ERROR,
+        STANDARD_GRAVITY + 2 * GRAVITY_ERROR,
+    ),
+    GravityFrom.ALL: (4.0, 30.0),
+}
 FASTEST_FOOT = 35.0  # rad/s (2000 deg/s); no foot turns faster for long
 FORCE_UNIT_SIZES = {"g": 1.0, "mg": 1e3}  # what a sensor at rest reads in them
 GRAVITY_DOUBT = 0.5  # m/s^2, 5 %: more than the accelerometer biases of consumer sensors
@@ -19,13 +27,12 @@ NO_GRAVITY = 3.0  # m/s^2; a sensor that reads less has gravity taken out
 
 def find_force_unit(foot: str, quality: Quality) -> Iterator[Finding]:
     """Yield a finding when the specific force is not gravity in m/s^2 at rest."""
-    stand = quality.stand
-    gravity = quality.median_force if stand is None else stand.gravity
-    tolerance = GRAVITY_ERROR if stand else 2 * GRAVITY_ERROR
-    if abs(gravity - STANDARD_GRAVITY) > tolerance:
-        where = "at rest" if stand else "in the median"
-        reading = f"{foot} foot: the specific force is {gravity:.4g} {where}"
-        text, remedy = _describe_force(reading, gravity)
+    low, high = GRAVITY_RANGE[quality.gravity_from]
+    if quality.gravity < low or quality.gravity > high:
+        reading = (
+            f"{foot} foot: the specific force is {quality.gravity:.4g} {quality.gravity_from}"
+        )
+        text, remedy = _describe_force(reading, quality.gravity)
         yield Finding(FindingKind.FORCE_UNIT, Severity.ERROR, text, remedy, foot)
 
 

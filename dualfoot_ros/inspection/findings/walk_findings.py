@@ -6,8 +6,10 @@ from collections.abc import Callable, Iterator, Sequence
 
 from ...core import Trajectory, stance_passings
 from ..lateral_spacing import SideBySide, side_by_side
+from ..stance_statistics import turn_taking
 from ..walk_facts import WalkFacts, walk_facts
 from .feet_findings import (
+    find_clocks_apart,
     find_exchanged,
     find_feet_apart,
     find_mirrored_foot,
@@ -47,6 +49,8 @@ def walk_findings(trajectory: Trajectory) -> Iterator[Finding]:
     facts = walk_facts(trajectory)
     for find in OF_WALK:
         yield from find(facts)
+    if not any(steps.missed for steps in facts.feet.values()):
+        yield from find_clocks_apart(turn_taking(trajectory))
     passings = stance_passings(trajectory)
     if len(passings) < LEAST_PASSINGS:
         return

@@ -1,4 +1,4 @@
-"""Recorder of topics to a bag, which is written whole or not at all."""
+"""Recorder of topics to a bag, which is written whole, or up to where its disk was full."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-from ...recording import METADATA, check_target, new_bag, new_directory
+from ...core import os_error_text
+from ...recording import METADATA, RecordingError, new_bag, new_directory
 
 
 class RecorderNode(Node):
@@ -29,11 +30,13 @@ class RecorderNode(Node):
             When it cannot be written.
         """
         super().__init__("recorder", **options)
-        check_target(path, overwrite=False, marker=METADATA)
+        if path.exists():
+            raise RecordingError(f"'{path}' exists already; choose another name to record to")
         self.recorded = 0
-        self._stack = ExitStack()
-        folder = self._stack.enter_context(new_directory(path, overwrite=False, marker=METADATA))
-        self._writer = self._stack.enter_context(new_bag(folder, "mcap", packed=False))
+        self._path, self._gave_up = path, False
+        self._folder, self._bag = ExitStack(), ExitStack()
+        folder = self._folder.enter_context(new_directory(path, overwrite=False, marker=METADATA))
+        self._writer = self._bag.enter_context(new_bag(folder, "mcap", packed=False))
         self._inputs = [self._subscribe(name, *item) for name, item in topics.items()]
 
     def _subscribe(self, topic: str, message_type: Any, profile: QoSProfile) -> Any:
@@ -46,8 +49,14 @@ class RecorderNode(Node):
         )
 
         def write(data: bytes) -> None:
-            self._writer.write(key, self._now_ns(), data)
-            self.recorded += 1
+            if self._gave_up:
+                return
+            try:
+                self._writer.write(key, self._now_ns(), data)
+                self.recorded += 1
+            except OSError as error:
+                self._give_up(error)
+                self._bag.__exit__(type(error), error, error.__traceback__)
 
         return self.create_subscription(message_type, topic, write, profile, raw=True)
 
@@ -55,7 +64,19 @@ class RecorderNode(Node):
         """Return the time of the node's clock, or of the wall before /clock has come."""
         return self.get_clock().now().nanoseconds or time.time_ns()
 
+    def _give_up(self, error: OSError) -> None:
+        """Record no more, and say so; the other nodes go on, and what was written stays."""
+        self._gave_up = True
+        self.get_logger().error(
+            f"nothing more is recorded to '{self._path}': {os_error_text(error)}; what was "
+            "written until now stays there, as a bag that was cut off"
+        )
+
     def destroy_node(self) -> None:
         """Close the bag, then destroy the node."""
-        self._stack.close()
+        try:
+            self._bag.close()
+        except OSError as error:
+            self._give_up(error)
+        self._folder.close()
         super().destroy_node()

@@ -120,14 +120,42 @@ def check_options(options: ImportOptions, chosen: Format) -> None:
     RecordingError
         Names the option, and the formats that it is for.
     """
-    for spec in fields(options):
-        if spec.name in (*OF_ALL, *chosen.options) or getattr(options, spec.name) == spec.default:
-            continue
-        able = [f.name for f in FORMATS if spec.name in f.options and not f.preset]
-        flag = _flag(spec.name, options)
-        raise RecordingError(
-            f"{flag} does not apply to the format {chosen.name}; it is for {', '.join(able)}"
+    for name in _given(options):
+        if name not in (*OF_ALL, *chosen.options):
+            raise RecordingError(
+                f"{_flag(name, options)} does not apply to the format {chosen.name}; it is for "
+                f"{', '.join(_able(name))}"
+            )
+
+
+def check_as_it_is(options: ImportOptions, bag: Path) -> None:
+    """Refuse every option about files of sensors, for a bag that is read as it is.
+
+    Raises
+    ------
+    RecordingError
+        Names the option, and what takes it.
+    """
+    for name in _given(options):
+        flag, able = _flag(name, options), _able(name)
+        remedy = (
+            f"'dualfoot import {bag} {flag} ... -o NEW' makes a bag with it"
+            if "rosbag" in able
+            else f"it is for the formats {', '.join(able)}"
         )
+        raise RecordingError(
+            f"{flag} does not apply: '{bag}' is a bag, which is read as it is; {remedy}"
+        )
+
+
+def _given(options: ImportOptions) -> list[str]:
+    """Return the names of the options that do not have their default."""
+    return [spec.name for spec in fields(options) if getattr(options, spec.name) != spec.default]
+
+
+def _able(name: str) -> list[str]:
+    """Return the formats that use an option."""
+    return [known.name for known in FORMATS if name in known.options and not known.preset]
 
 
 def _flag(name: str, options: ImportOptions) -> str:

@@ -202,6 +202,23 @@ def test_a_missed_stance_costs_its_stride_and_not_the_times_of_its_neighbours(tr
             assert s.stride_time_s == pytest.approx(times[s.end_ns], abs=0.005, nan_ok=True)
 
 
+def test_strides_beside_missing_samples_are_not_steady(tracked):
+    """What was walked in a hole is put right in the next stance, so two strides are wrong."""
+    stances = stance_bounds(tracked.left.stance)
+    lost = tracked.left.present.copy()
+    lost[stances[9, 1] + 5 : stances[9, 1] + 25] = False
+    before = {(s.foot, s.start_ns): s for s in strides_of(tracked.left, tracked.right)}
+    after = {
+        (s.foot, s.start_ns): s
+        for s in strides_of(replace(tracked.left, present=lost), tracked.right)
+    }
+    changed = [key for key, stride in after.items() if stride.steady != before[key].steady]
+    starts = tracked.left.stamp_ns[(stances[9:11].sum(axis=1) - 1) // 2]
+    assert changed == [("left", int(start)) for start in starts]
+    steps = [s for s in after.values() if math.isnan(s.step_width_m)]
+    assert {s.foot for s in steps} == {"right"} and len(steps) == 2
+
+
 def test_a_corner_is_turned_stride_by_stride(simulated):
     estimated, _ = simulated
     for foot in ("left", "right"):

@@ -16,6 +16,7 @@ from .comparison_words import JUDGED, in_words, ranking
 from .page import figure, html_table, page, section, words
 from .page_tables import table
 from .walk_page import FILE_NAME
+from .words import Sentence, Tone
 
 if TYPE_CHECKING:
     from ...batch import Entry
@@ -79,12 +80,18 @@ def comparison_page(
         tables |= made
         charts[f"map{index}"] = _map(index, bag, own, series)
     body = [
-        section("Findings", words(list(in_words(cases, failures)))),
+        section("Findings", words([*_warnings(entries), *in_words(cases, failures)])),
         section("Figures", _table(cases), _caption(entries, len(bags))),
         section("Tracks", *(figure(name) for name in charts)),
     ]
     about = f"{len(cases)} methods or settings on {len(bags)} recording{'s' * (len(bags) > 1)}"
     return page("Comparison of methods", about, body, {"tables": tables, "charts": charts})
+
+
+def _warnings(entries: Sequence[Entry]) -> list[Sentence]:
+    """Return what is wrong with the samples of the recordings, each once."""
+    found = dict.fromkeys(f"{entry.bag}: {each}." for entry in entries for each in entry.warnings)
+    return [Sentence(text, Tone.WARNING) for text in found]
 
 
 def _known(cases: Mapping[str, list[dict[str, Any]]]) -> list[str]:

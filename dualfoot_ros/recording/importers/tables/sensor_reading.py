@@ -137,6 +137,11 @@ def _check_filled(table: TableFile, places: Sequence[int], keep: BoolArray) -> N
         return
     gaps = table.numbers(places).empty.sum(axis=0)
     emptiest = int(np.argmax(gaps))
+    if not gaps[emptiest]:
+        raise RecordingError(
+            f"'{table.path}' holds {len(keep)} sample{'' if len(keep) == 1 else 's'}; at least "
+            f"{LEAST_SAMPLES} are needed"
+        )
     name = (table.dialect.names[places[emptiest]] if table.dialect.names else "") or "without name"
     raise RecordingError(
         f"'{table.path}' holds {int(keep.sum())} samples of which no cell is empty; column "

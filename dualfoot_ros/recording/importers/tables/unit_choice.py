@@ -90,6 +90,8 @@ def force_unit(
             )
         off = abs(evidence.gravity * FORCE_UNITS[likely] / STANDARD_GRAVITY - 1.0)
         value, doubtful = f"{likely} ({reading})", evidence.quiet and off > NEAR_GRAVITY
+        if doubtful:
+            value += f", {off:.1%} off gravity; if that is no error of scale, give --force-unit"
         return likely, Assumption(foot, WORDS["force"], value, Origin.MOTION, doubtful)
     if told.origin is not Origin.OPTION and _lacks_gravity(evidence, FORCE_UNITS[told.unit]):
         raise RecordingError(
@@ -111,7 +113,7 @@ def force_unit(
             f"{reading}, which is gravity in no known unit; are these raw counts? Export "
             f"calibrated values, or give --force-unit {told.unit} to insist"
         )
-    value = f"{told.unit} ({reading})"
+    value = f"{told.unit} ({reading}){', which is not gravity' if doubtful else ''}"
     return told.unit, Assumption(foot, WORDS["force"], value, told.origin, doubtful)
 
 
@@ -152,7 +154,7 @@ def rate_unit(path: Path, foot: str, told: Told, evidence: UnitEvidence) -> tupl
             f"{reading}, and rates {motion} are those in {likely}: the gyro does not fit the "
             f"accelerometer; give --rate-unit {likely}, or --rate-unit {told.unit} to insist"
         )
-    value = f"{told.unit} ({reading})"
+    value = f"{told.unit} ({reading}){'' if fits else f', which are no rates {motion}'}"
     return told.unit, Assumption(foot, WORDS["rate"], value, told.origin, not fits)
 
 

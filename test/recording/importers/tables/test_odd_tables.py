@@ -183,3 +183,14 @@ def test_a_clock_time_goes_on_over_midnight(tmp_path):
         row[0] = f"{hour:02d}:{rest // 60_000:02d}:{rest % 60_000 / 1000:06.3f}"
     found = read(write(tmp_path, cells, names=("time", *NAMES[1:])))
     np.testing.assert_array_equal(np.diff(found.stamp_ns), 10_000_000)
+
+
+def test_a_unit_taken_from_a_gravity_that_is_off_is_said_with_the_reason(tmp_path):
+    (doubt,) = doubts(write(tmp_path, rows(force=1.02)))
+    assert doubt.startswith("m/s^2 (it reads 9.6")
+    assert doubt.endswith("% off gravity; if that is no error of scale, give --force-unit")
+
+
+def test_a_table_of_one_row_is_said_to_have_one_sample(tmp_path):
+    with pytest.raises(RecordingError, match="holds 1 sample; at least 2 are needed"):
+        read(write(tmp_path, rows()[:1]))

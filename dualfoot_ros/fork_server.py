@@ -1,7 +1,8 @@
 """The process that workers are forked from, once it has imported what they need.
 
-A fork of this process would copy locks that its threads hold; that one has none.  It starts while
-this process imports the same, it does so once for all workers, and it ends with this process.
+A fork of this process would copy locks that its threads hold; that one only imports and waits, and
+numpy's library ends its threads before a fork.  It starts while this process imports the same, it
+does so once for all workers, and it ends with this process.
 """
 
 from __future__ import annotations

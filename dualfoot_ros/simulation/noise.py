@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import accumulate
+
 import numpy as np
 
 from ..core import FloatArray
@@ -37,11 +39,13 @@ def gauss_markov(keep: float, normal: FloatArray) -> FloatArray:
     ``keep`` is the correlation from one sample to the next, ``normal`` what drives the process:
     white, of unit variance, of the same shape.
     """
-    from scipy.signal import lfilter
-
     drive = np.sqrt(1.0 - keep * keep) * normal
     drive[:1] /= np.sqrt(1.0 - keep * keep)
-    process: FloatArray = lfilter([1.0], [1.0, -keep], drive, axis=0)
+    # What scipy.signal.lfilter does, whose package takes longer to load than this for an hour.
+    process = np.empty(drive.shape)
+    for to, column in zip(np.atleast_2d(process.T), np.atleast_2d(drive.T), strict=True):
+        sums = accumulate(column.tolist(), lambda before, now: now + keep * before)
+        to[:] = np.fromiter(sums, np.float64, len(column))
     return process
 
 

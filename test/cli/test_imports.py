@@ -46,6 +46,11 @@ def test_evaluate_loads_no_science_for_a_walk_with_truth(tmp_path):
     assert_loads_nothing_of(names, ["evaluate", bag, "--json"])
 
 
+def test_consistency_loads_nothing_of_what_only_uses_parts_that_it_needs():
+    arguments = ["consistency", "--walks", "1", "--rate", "60", "--jobs", "1", "--json"]
+    assert_loads_nothing_of((*FIGURES, *COMPILER, "scipy.signal", "scipy.stats"), arguments)
+
+
 def assert_loads_nothing_of(names, arguments):
     script = SCRIPT.format(arguments=arguments, names=names)
     done = subprocess.run(

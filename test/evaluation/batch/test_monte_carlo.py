@@ -6,10 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.stats import chi2
 
 from dualfoot_ros.core import TrackerConfig
 from dualfoot_ros.core.results.events import Event, EventKind
 from dualfoot_ros.evaluation.batch.monte_carlo import (
+    CONFIDENCE,
     POINTS,
     WalkJob,
     WalkScores,
@@ -33,6 +35,14 @@ def test_the_band_holds_the_mean_of_chi_squares_in_95_of_100_cases():
     low, high = band(20, 3)
     means = rng.chisquare(3, size=(20_000, 20)).mean(axis=1) / 3.0
     assert np.mean((means >= low) & (means <= high)) == pytest.approx(0.95, abs=0.01)
+
+
+@pytest.mark.parametrize("dimensions", [1, 3])
+@pytest.mark.parametrize("count", [1, 50, 100_000])
+def test_the_band_is_that_of_the_chi_square_distribution(count, dimensions):
+    freedom = count * dimensions
+    shares = [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2]
+    assert band(count, dimensions) == tuple(chi2.ppf(shares, freedom) / freedom)
 
 
 def test_more_walks_have_a_narrower_band_about_one():

@@ -14,6 +14,7 @@ import os
 import threading
 import time
 import weakref
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ from numpy.typing import NDArray
 from ...core import RecordingError, make_large_arrays_in, os_error_text
 
 ROOMY = Path("/var/tmp")  # noqa: S108 - files have no name there; /tmp is often in memory itself
-MOST_RESIDENT = 1 << 25  # bytes of the files in memory, before they are let go of
+MOST_RESIDENT = 1 << 26  # bytes of the files in memory, before they are let go of
 EVERY_S = 0.02
 STATM = "/proc/self/statm"
 MEGABYTE = 1_000_000
@@ -84,6 +85,7 @@ class Files:
                 pages = mmap.mmap(file.fileno(), size)
         except OSError as error:
             raise RecordingError(_no_room(folder, size, error)) from error
+        _take_large_pages(pages)
         self._watch(pages)
         return np.frombuffer(pages, dtype=dtype).reshape(shape)
 
@@ -122,6 +124,13 @@ class Files:
             if not self._files:
                 self._thread = None
             return self._thread is None
+
+
+def _take_large_pages(pages: mmap.mmap) -> None:
+    """Ask the system for pages of megabytes: with small ones, writing takes five times as long."""
+    if hasattr(mmap, "MADV_HUGEPAGE"):
+        with suppress(OSError):  # it has none
+            pages.madvise(mmap.MADV_HUGEPAGE)
 
 
 def _of_files() -> int:

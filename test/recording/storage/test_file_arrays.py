@@ -69,6 +69,17 @@ def resident() -> int:
     return int(Path(file_arrays.STATM).read_text().split()[2]) * 4096
 
 
+@pytest.mark.parametrize("advice", [None, -1])
+def test_a_system_without_large_pages_has_small_ones(folder, monkeypatch, advice):
+    if advice is None:
+        monkeypatch.delattr(file_arrays.mmap, "MADV_HUGEPAGE", raising=False)
+    else:  # one that the system refuses
+        monkeypatch.setattr(file_arrays.mmap, "MADV_HUGEPAGE", advice, raising=False)
+    array = new_array((large_arrays.LARGE,), np.uint8)
+    array[:] = 1
+    assert not in_memory(array) and array.all()
+
+
 def test_a_disk_without_room_is_named_with_what_was_needed(folder, monkeypatch):
     def full(_file: int, _start: int, _size: int) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")

@@ -54,5 +54,6 @@ def _within(bars: list[Bar], start_s: float, end_s: float) -> list[Bar]:
 
 
 def _bars(time: np.ndarray, stance: np.ndarray) -> list[Bar]:
-    last = len(time) - 1
-    return [(time[a], time[min(b, last)] - time[a]) for a, b in stance_bounds(stance)]
+    first, end = stance_bounds(stance).T
+    starts, ends = time[first], time[np.minimum(end, len(time) - 1)]
+    return list(zip(starts.tolist(), (ends - starts).tolist(), strict=True))

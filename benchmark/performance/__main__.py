@@ -2,7 +2,7 @@
 
 One C is the CPU time of an epoch of both feet by the same filter in plain C; ``--yardstick`` names
 the folder with its source (epoch.c, yardstick.py), which is compiled here.  Commands are beside
-``import numpy``, nodes beside an empty node with the same topics.
+``import numpy``, nodes beside an empty node with the same topics, two jobs beside one.
 """
 
 from __future__ import annotations
@@ -23,9 +23,10 @@ from .commands import hour_figures, start_figures
 from .epochs import epoch_figures
 from .figure import Figure
 from .growth import growth_figures
+from .many_walks import compare_figures
 from .outputs import output_figures
 
-PARTS = ("epochs", "outputs", "hour", "start", "growth")
+PARTS = ("epochs", "outputs", "hour", "start", "compare", "growth")
 MOST_HOURS = 9  # that can be simulated: 100 laps
 EXAMPLES = """examples:
   python -m benchmark.performance --yardstick ../yardstick
@@ -93,6 +94,7 @@ def _parts(options: argparse.Namespace, c: CEpoch | None) -> dict[str, Callable[
         "outputs": lambda: output_figures(options.walked),
         "hour": lambda: _hour(options.keep, c, options.hours),
         "start": lambda: start_figures(options.repetitions),
+        "compare": compare_figures,
         "growth": growth_figures,
     }
     if c is not None:

@@ -14,8 +14,8 @@ from collections.abc import Iterable, Sequence
 from typing import NoReturn, Protocol, cast
 
 from .. import __version__
-from .freed_memory import keep_freed_memory
-from .interrupt import EXIT_INTERRUPTED, Interruptible
+from .process.freed_memory import keep_freed_memory
+from .process.interrupt import EXIT_INTERRUPTED, Interruptible
 
 VERBS = {
     "probe": "probe",

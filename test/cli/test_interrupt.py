@@ -6,7 +6,7 @@ import threading
 import pytest
 from processes import PATIENCE_S
 
-from dualfoot_ros.cli import interrupt
+from dualfoot_ros.cli.process import interrupt
 from dualfoot_ros.recording import Recording, write_bag
 from dualfoot_ros.simulation import WalkConfig, simulate
 
@@ -15,7 +15,8 @@ from dualfoot_ros.simulation import WalkConfig, simulate
 SOON_S = 1.0
 SCRIPT = """
 import os, sys, time
-from dualfoot_ros.cli import interrupt, main as m
+from dualfoot_ros.cli import main as m
+from dualfoot_ros.cli.process import interrupt
 class V: HELP = EXAMPLES = ''; add_arguments = staticmethod(lambda p: None)
 def wait(): [time.sleep(0.01) for _ in range({patience})]
 def run(args):

@@ -1,0 +1,1 @@
+"""The process that a command has for itself: how it is interrupted, what memory it keeps."""

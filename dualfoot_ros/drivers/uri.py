@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import PurePath
 from typing import NamedTuple
-from urllib.parse import parse_qsl, unquote, urlsplit
+from urllib.parse import SplitResult, parse_qsl, unquote, urlsplit
 
 from ..core import ConfigError, Parameters, SourceError
 from .protocols.registry import FORMATS, find_format
@@ -57,15 +57,7 @@ def parse_uri(uri: str) -> SourceUri:
     SourceError
         For an unknown scheme, format or option, or a value that is not allowed; says which.
     """
-    try:
-        parts = urlsplit(uri)
-    except ValueError as error:
-        raise SourceError(f"source '{uri}' is no URI: {error}") from None
-    if parts.scheme not in SCHEMES:
-        examples = ", ".join(scheme.example for scheme in SCHEMES.values())
-        raise SourceError(
-            f"source '{uri}' starts with no known scheme; allowed is, as in {examples}"
-        )
+    parts = check_scheme(uri)
     if parts.fragment:
         raise SourceError(f"source '{uri}' has a '#'; write %23 where it is part of a name")
     location = unquote(parts.netloc + parts.path)
@@ -74,6 +66,21 @@ def parse_uri(uri: str) -> SourceUri:
             f"source '{uri}' names nothing; allowed is as in {SCHEMES[parts.scheme].example}"
         )
     return _parse_options(uri, parts.scheme, location, _parse_query(uri, parts.query))
+
+
+def check_scheme(uri: str) -> SplitResult:
+    """Return a URI in its parts; raise SourceError when its scheme is not known."""
+    try:
+        parts = urlsplit(uri)
+    except ValueError as error:
+        raise SourceError(f"source '{uri}' is no URI: {error}") from None
+    if parts.scheme not in SCHEMES:
+        meant = f" (did you mean 'serial://{uri}'?)" if uri.startswith("/dev/") else ""
+        examples = ", ".join(scheme.example for scheme in SCHEMES.values())
+        raise SourceError(
+            f"source '{uri}' starts with no known scheme{meant}; allowed is, as in {examples}"
+        )
+    return parts
 
 
 def _parse_query(uri: str, query: str) -> dict[str, str]:

@@ -86,6 +86,9 @@ def test_bytes_of_no_known_format_end_with_2_and_no_parameters(capture, dualfoot
         (["udp://:1", "udp://:2", "udp://:3"], "give one URI"),
         (["udp://:1", "--seconds", "0"], "--seconds is 0; allowed is 0.1 to 600"),
         (["file:///no/such.bin"], "does not exist"),
+        (["nonsense"], "source 'nonsense' starts with no known scheme; allowed is"),
+        (["/dev/no_such"], "(did you mean 'serial:///dev/no_such'?)"),
+        (["serial:///dev/no_such?baud=9600"], ": /dev/no_such: No such file or directory\n"),
     ],
 )
 def test_what_cannot_be_probed_is_one_sentence(arguments, sentence, dualfoot):

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 from urllib.parse import parse_qsl, urlsplit
 
-from ...core import SourceError
+from ...core import SourceError, os_error_text
 from ..source import make_transport
 from ..transports.serial_port import SerialConfig
 from ..transports.transport import Transport
-from ..uri import SourceUri, parse_uri
+from ..uri import SourceUri, check_scheme, parse_uri
 from .recognition import Recognition, recognise
 
 BAUDS = (115200, 921600, 460800, 230400, 9600, 57600, 38400, 1_000_000, 2_000_000)
@@ -100,6 +100,7 @@ def _at_baud(source: SourceUri, baud: int) -> SourceUri:
 
 
 def _parse(uri: str) -> SourceUri:
+    check_scheme(uri)  # in the words of the user
     known = "format=" in urlsplit(uri).query or urlsplit(uri).scheme == "ble"
     return parse_uri(uri if known else _add(uri, ANY_FORMAT))
 
@@ -115,7 +116,7 @@ def _record(
         transport.open()
         return list(_read(transport, seconds, clock))
     except OSError as error:
-        raise SourceError(f"{transport.description}: {error}") from error
+        raise SourceError(f"{transport.description}: {os_error_text(error)}") from error
     finally:
         transport.close()
 

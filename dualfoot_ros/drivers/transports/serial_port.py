@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from dataclasses import dataclass
 from importlib import util
 from typing import Any
@@ -75,7 +76,9 @@ def _as_os_error() -> Any:
     """Turn the other exceptions of pyserial and the terminal layer into OSError."""
     try:
         yield
-    except OSError:
-        raise
+    except OSError as error:
+        if error.errno is None:
+            raise
+        raise OSError(error.errno, os.strerror(error.errno)) from error  # pyserial says it twice
     except Exception as error:
         raise OSError(f"{type(error).__name__}: {error}") from error

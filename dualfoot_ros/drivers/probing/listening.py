@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 from urllib.parse import parse_qsl, urlsplit
 
-from ...core import SourceError, os_error_text
+from ...core import SourceError
 from ..source import make_transport
 from ..transports.serial_port import SerialConfig
 from ..transports.transport import Transport
@@ -116,7 +116,7 @@ def _record(
         transport.open()
         return list(_read(transport, seconds, clock))
     except OSError as error:
-        raise SourceError(f"{transport.description}: {os_error_text(error)}") from error
+        raise SourceError(f"{transport.description}: {error.strerror or error}") from error
     finally:
         transport.close()
 

@@ -51,7 +51,7 @@ class SerialTransport(Transport):
         """Open the port; raise :class:`OSError` when it is absent, busy or forbidden."""
         import serial
 
-        with _as_os_error():
+        with _as_os_error(self.description):
             self._port = serial.Serial(
                 self.description, self._baud, timeout=POLL_S, exclusive=True
             )
@@ -60,7 +60,7 @@ class SerialTransport(Transport):
 
     def read(self) -> bytes:
         """Return what has come; raise :class:`OSError` when the device is gone."""
-        with _as_os_error():
+        with _as_os_error(self.description):
             return bytes(self._port.read(max(1, self._port.in_waiting)))
 
     def close(self) -> None:
@@ -72,13 +72,14 @@ class SerialTransport(Transport):
 
 
 @contextlib.contextmanager
-def _as_os_error() -> Any:
+def _as_os_error(port: str) -> Any:
     """Turn the other exceptions of pyserial and the terminal layer into OSError."""
     try:
         yield
     except OSError as error:
         if error.errno is None:
             raise
-        raise OSError(error.errno, os.strerror(error.errno)) from error  # pyserial says it twice
+        text = os.strerror(error.errno)  # pyserial says it twice
+        raise OSError(error.errno, text, port) from error
     except Exception as error:
         raise OSError(f"{type(error).__name__}: {error}") from error

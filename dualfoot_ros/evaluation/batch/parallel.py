@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Generic, TypeVar
 
@@ -18,9 +18,17 @@ Result = TypeVar("Result")
 
 @dataclass(frozen=True)
 class Failure:
-    """Why a run gave no result, as a sentence."""
+    """Why a run gave no result, as a sentence.
+
+    ``of_system`` is number, text and file of an error of the system, where it was one.
+    """
 
     sentence: str
+    of_system: tuple[int | None, str, str | None] | None = field(default=None, compare=False)
+
+    def error(self) -> EvaluationError | OSError:
+        """Return the error to raise for it."""
+        return OSError(*self.of_system) if self.of_system else EvaluationError(self.sentence)
 
 
 @dataclass(frozen=True)
@@ -92,13 +100,13 @@ class Pool:
 
         Raises
         ------
-        EvaluationError
+        EvaluationError, OSError
             When one of them is refused; the others are given up.
         """
         results: dict[int, Result] = {}
         for done in self._run_here(partial(_attempt, partial(_called, function)), items):
             if isinstance(done.result, Failure):
-                raise EvaluationError(done.result.sentence)
+                raise done.result.error()
             results[done.index] = done.result
         return [results[index] for index in sorted(results)]
 
@@ -128,7 +136,8 @@ def _attempt(function: Callable[[Item], Result], item: Item) -> Result | Failure
         if error.strerror is None:
             raise
         where = f"'{error.filename}': " if error.filename else ""
-        return Failure(f"{where}{error.strerror}")
+        told = error.errno, error.strerror, error.filename
+        return Failure(f"{where}{error.strerror}", told)
 
 
 def _called(function: Callable[..., Result], arguments: tuple[Any, ...]) -> Result:

@@ -1,9 +1,12 @@
 """Many runs at once: results, refusals, defects."""
 
+import errno
+
 import pytest
 
 from dualfoot_ros.core.errors import DualFootError, EvaluationError
 from dualfoot_ros.evaluation.batch.parallel import Failure, Pool
+from dualfoot_ros.recording import new_files
 
 
 def halved(number: int) -> float:
@@ -38,9 +41,25 @@ def quotient(number: int, by: int) -> float:
     return halved(number) * 2 / by
 
 
+def full(_: int) -> None:
+    raise OSError(errno.ENOSPC, "No space left on device")
+
+
 @pytest.mark.parametrize("jobs", (1, 2))
 def test_what_is_needed_of_every_item_comes_in_their_order_or_not_at_all(jobs):
     with Pool(jobs) as pool:
         assert pool.run_all(quotient, [(6, 2), (4, 1), (9, 3)]) == [3.0, 4.0, 3.0]
         with pytest.raises(EvaluationError, match="-1 is negative"):
             pool.run_all(quotient, [(6, 2), (-1, 1)])
+
+
+@pytest.mark.parametrize("jobs", (1, 2))
+def test_a_full_disk_is_an_error_of_the_system_also_in_a_worker(jobs, tmp_path):
+    """So that whoever writes an output can name it."""
+    with (
+        Pool(jobs) as pool,
+        pytest.raises(OSError, match=rf"cannot be written: .*'{tmp_path / 'report'}'") as raised,
+        new_files(tmp_path / "report"),
+    ):
+        pool.run_all(full, [(1,), (2,)])
+    assert raised.value.errno == errno.ENOSPC

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -23,8 +23,6 @@ from .stream_join import Stream, are_apart, join
 from .table_file import TableFile, rate_in
 from .table_layout import Layout
 from .unit_choice import Told, field_in_tesla, force_unit, rate_unit, told_unit
-
-LEAST_SAMPLES = 2
 
 
 @dataclass(frozen=True)
@@ -93,7 +91,7 @@ def read_sensor_columns(
     if apart:
         return _of_two_streams(table, columns, request, rows)
     keep = _kept(cells.empty[:, :second], rows) & table.timed(columns.places.get("time"))
-    _check_filled(table, [*parts[0], *parts[1]], keep)
+    table.check_filled([*parts[0], *parts[1]], keep)
     dropped = _dropped(keep, rows, request.foot)
     stamps = stamps_of(time_source(table, columns, request.foot, keep))
     kept = values[keep]
@@ -129,25 +127,6 @@ def _kept(empty: BoolArray, rows: BoolArray | None) -> BoolArray:
     """Return which rows have all that is needed."""
     whole: BoolArray = np.asarray(~empty.any(axis=1))
     return whole if rows is None else whole & rows
-
-
-def _check_filled(table: TableFile, places: Sequence[int], keep: BoolArray) -> None:
-    """Refuse a table with fewer than LEAST_SAMPLES rows to ``keep``; name the emptiest column."""
-    if int(keep.sum()) >= LEAST_SAMPLES:
-        return
-    gaps = table.numbers(places).empty.sum(axis=0)
-    emptiest = int(np.argmax(gaps))
-    if not gaps[emptiest]:
-        raise RecordingError(
-            f"'{table.path}' holds {len(keep)} sample{'' if len(keep) == 1 else 's'}; at least "
-            f"{LEAST_SAMPLES} are needed"
-        )
-    name = (table.dialect.names[places[emptiest]] if table.dialect.names else "") or "without name"
-    raise RecordingError(
-        f"'{table.path}' holds {int(keep.sum())} samples of which no cell is empty; column "
-        f"'{name}' is empty in {gaps[emptiest]} of {len(keep)} rows: export it again, or name "
-        "other columns with --columns"
-    )
 
 
 def _dropped(keep: BoolArray, rows: BoolArray | None, foot: str) -> list[Assumption]:
@@ -297,6 +276,6 @@ def read_stream(
         raise RecordingError(missing(table.path, table.dialect, columns, table.facts))
     cells = table.numbers(places)
     keep = _kept(cells.empty, rows) & table.timed(columns.places.get("time"))
-    _check_filled(table, places, keep)
+    table.check_filled(places, keep)
     stamps = stamps_of(time_source(table, columns, foot, keep))
     return Stream(stamps.stamp_ns, cells.numbers[keep]), stamps

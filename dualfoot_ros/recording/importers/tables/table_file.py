@@ -22,6 +22,7 @@ RATE_KEYS = ("rate", "frequency", "fs", "frequenz")
 DAY_FIRST = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})(?=\D)")  # 31.5.2024, always in this order
 CLOCK = re.compile(r"(?:(\d+)[:])?(\d{1,2}):(\d{1,2}(?:[.,]\d+)?)")
 DAY_S = 86400.0
+LEAST_SAMPLES = 2
 
 
 @dataclass(frozen=True)
@@ -91,6 +92,32 @@ class TableFile:
             )
             return values, exact
         return _from_dates(self.words(place), self.path, self.dialect.names[place])
+
+    def check_filled(self, places: Sequence[int], keep: BoolArray) -> None:
+        """Refuse the table with fewer than LEAST_SAMPLES rows to ``keep`` (N,).
+
+        Raises
+        ------
+        RecordingError
+            Naming how many there are, or the emptiest of the columns ``places``.
+        """
+        kept = int(keep.sum())
+        if kept >= LEAST_SAMPLES:
+            return
+        gaps = self.numbers(places).empty.sum(axis=0)
+        emptiest = int(np.argmax(gaps))
+        if not gaps[emptiest]:
+            raise RecordingError(
+                f"'{self.path}' holds {len(keep)} sample{'' if len(keep) == 1 else 's'}; at least "
+                f"{LEAST_SAMPLES} are needed"
+            )
+        names = self.dialect.names
+        name = (names[places[emptiest]] if names else "") or "without name"
+        raise RecordingError(
+            f"'{self.path}' holds {kept} samples of which no cell is empty; column '{name}' is "
+            f"empty in {gaps[emptiest]} of {len(keep)} rows: export it again, or name other "
+            "columns with --columns"
+        )
 
     def form(self, foot: str) -> list[Assumption]:
         """Return what was assumed about the text."""

@@ -9,9 +9,12 @@ from __future__ import annotations
 import ctypes
 from contextlib import suppress
 
-OPTIONS = {-3: 1 << 25, -1: 1 << 27, -2: 1 << 24}
-"""Of ``mallopt``, bytes: an array that is smaller is taken from what is kept; how much is kept; by
-how much it grows at a time."""
+M_TRIM_THRESHOLD, M_TOP_PAD, M_MMAP_THRESHOLD = -1, -2, -3  # as in malloc.h
+OPTIONS = {
+    M_MMAP_THRESHOLD: 1 << 25,  # bytes: a smaller array is taken from what is kept
+    M_TRIM_THRESHOLD: 1 << 27,  # how much is kept
+    M_TOP_PAD: 1 << 24,  # by how much it grows at a time
+}
 
 
 def keep_freed_memory() -> None:

@@ -172,7 +172,7 @@ def content(alignment) -> tuple:
 
 def held(watch) -> list:
     sliders = watch._slider, watch._short
-    rows = [s._rows[s._stop - len(s._stamps) : s._stop].tobytes() for s in sliders]
+    rows = [s._rows.rows().tobytes() for s in sliders]
     return [(list(s._stamps), s._due_ns, row) for s, row in zip(sliders, rows, strict=True)]
 
 

@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..groups import AlignmentConfig
+from ..samples.row_window import RowWindow
 from ..samples.series import FloatArray, IntArray
 from .windows_ahead import FEWEST_SAMPLES, WindowsAhead, window_begins, window_ends
 
 SLIDES = 25  # steps in which a window moves on by its length
-ROOM = 256  # samples, to begin with
 CORRELATION_S = 0.15  # time over which the angular rate of a standing foot is alike
 
 
@@ -104,31 +104,30 @@ class WindowSlider:
         self._length_ns = round(seconds * 1e9)
         self._step_ns = slide_ns(self._length_ns)
         self._stamps: deque[int] = deque()
-        self._rows = np.zeros((ROOM, 6))  # the samples, the newest before row ``_stop``
-        self._stop = 0
+        self._rows = RowWindow(6)  # the samples
         self._due_ns: int | None = None
 
     def add(self, stamp_ns: int, values: FloatArray) -> Window | None:
         """Take a sample (6,); return the window that ends with it, when one is due."""
         stamps = self._stamps
-        self._keep(values)
+        self._rows.append(values)
         stamps.append(stamp_ns)
         begin_ns = stamp_ns - self._length_ns
         full = stamps[0] <= begin_ns
         while stamps[0] <= begin_ns:
             stamps.popleft()
+            self._rows.drop_first()
         if not full or len(stamps) < FEWEST_SAMPLES:
             return None
         if not self._is_due(stamp_ns):
             return None
-        block = self._rows[self._stop - len(stamps) : self._stop]
-        return Window.of(block, stamp_ns, self._length_ns * 1e-9)
+        return Window.of(self._rows.rows(), stamp_ns, self._length_ns * 1e-9)
 
     def look_ahead(self, stamps: IntArray, rows: FloatArray) -> WindowsAhead:
         """Return what would come of samples (N, 6) with rising stamps (N,); none is taken."""
         held = len(self._stamps)
         whole_ns = np.concatenate([np.array(self._stamps, dtype=np.int64), stamps])
-        whole = np.concatenate([self._rows[self._stop - held : self._stop], rows])
+        whole = np.concatenate([self._rows.rows(), rows])
         begins, full = window_begins(whole_ns, self._length_ns)
         full[:held] = False
         ends, dues_ns = window_ends(whole_ns, full, self._step_ns, self._due_ns)
@@ -148,16 +147,10 @@ class WindowSlider:
             return
         stop = ahead.held + count
         begin = ahead.begins[stop - 1]
-        self._hold(ahead.stamp_ns[begin:stop].tolist(), ahead.rows[begin:stop])
+        self._stamps = deque(ahead.stamp_ns[begin:stop].tolist())
+        self._rows.hold(ahead.rows[begin:stop])
         ended = bisect_left(ahead.ends, stop)
         self._due_ns = ahead.dues_ns[ended - 1] if ended else self._due_ns
-
-    def _hold(self, stamps: list[int], rows: FloatArray) -> None:
-        """Hold these samples (N, 6) in place of all others."""
-        self._stamps = deque(stamps)
-        self._rows = np.zeros((max(len(self._rows), 2 * len(rows)), 6))
-        self._rows[: len(rows)] = rows
-        self._stop = len(rows)
 
     def _is_due(self, stamp_ns: int) -> bool:
         """Return whether a window that ends now is wanted, and when the next one will be."""
@@ -166,18 +159,8 @@ class WindowSlider:
         self._due_ns = max(self._due_ns or stamp_ns, stamp_ns - self._step_ns) + self._step_ns
         return True
 
-    def _keep(self, values: FloatArray) -> None:
-        """Keep a sample (6,) behind the others, which go to the front when there is no room."""
-        if self._stop == len(self._rows):
-            held = self._rows[self._stop - len(self._stamps) :].copy()
-            if 2 * len(held) > len(self._rows):
-                self._rows = np.zeros((2 * len(self._rows), 6))
-            self._rows[: len(held)] = held
-            self._stop = len(held)
-        self._rows[self._stop] = values
-        self._stop += 1
-
     def clear(self) -> None:
         """Forget the samples."""
         self._stamps.clear()
+        self._rows.clear()
         self._due_ns = None

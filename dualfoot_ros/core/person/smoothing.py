@@ -13,9 +13,9 @@ from collections import deque
 from typing import NamedTuple
 
 from ..rotation import about_z
+from ..samples.row_window import RowWindow
 from ..samples.series import FloatArray
 from .person import RATE_SPAN_S, PersonEstimate
-from .row_window import RowWindow
 
 LONGEST_STEP_S = 0.5  # between two estimates; after a longer one the window fills anew
 

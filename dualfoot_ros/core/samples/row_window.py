@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..samples.series import FloatArray
+from .series import FloatArray
 
 
 class RowWindow:
@@ -16,12 +16,19 @@ class RowWindow:
         self._memory = np.empty((2, columns))
         self._first = self._end = 0
 
-    def append(self, row: Sequence[float]) -> None:
+    def append(self, row: Sequence[float] | FloatArray) -> None:
         """Add a row."""
         if self._end == len(self._memory):
             self._make_room()
         self._memory[self._end] = row
         self._end += 1
+
+    def hold(self, rows: FloatArray) -> None:
+        """Hold these rows in place of all others."""
+        if len(rows) > len(self._memory):
+            self._memory = np.empty((2 * len(rows), self._memory.shape[1]))
+        self._first, self._end = 0, len(rows)
+        self._memory[: self._end] = rows
 
     def drop_first(self) -> None:
         """Drop the oldest row."""
@@ -40,5 +47,4 @@ class RowWindow:
         kept = self.rows().copy()
         if 2 * len(kept) > len(self._memory):
             self._memory = np.empty((2 * len(self._memory), self._memory.shape[1]))
-        self._first, self._end = 0, len(kept)
-        self._memory[: self._end] = kept
+        self.hold(kept)

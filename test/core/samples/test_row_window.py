@@ -6,10 +6,10 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dualfoot_ros.core.person.row_window import RowWindow
+from dualfoot_ros.core.samples.row_window import RowWindow
 
 
-@given(st.lists(st.sampled_from(["append", "append", "drop_first", "clear"]), max_size=80))
+@given(st.lists(st.sampled_from(["append", "append", "drop_first", "clear", "hold"]), max_size=80))
 def test_the_rows_are_those_of_a_queue_with_the_same_sums_to_the_bit(steps):
     window, queue, numbers = RowWindow(3), deque(), np.random.default_rng(1)
     for step in steps:
@@ -20,6 +20,10 @@ def test_the_rows_are_those_of_a_queue_with_the_same_sums_to_the_bit(steps):
         elif step == "clear":
             window.clear()
             queue.clear()
+        elif step == "hold":
+            held = numbers.normal(size=(5, 3))
+            window.hold(held)
+            queue = deque(held.tolist())
         elif queue:
             window.drop_first()
             queue.popleft()
